@@ -66,8 +66,6 @@ def audit_files(files: Files) -> Audit:
 
 
 def _check(files: Files, findings: Findings) -> None:
-    if any(a == b for a, b in (pair["between"] for pair in files.summary["pairs"])):
-        raise InputError("cannot audit a body in contact with itself yet")
     parts = parts_of(files)
     models = [part.model for part in parts]
     scales = [Scales(model) for model in models]

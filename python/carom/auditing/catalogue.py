@@ -137,7 +137,7 @@ CHECKS: dict[str, tuple[str, str]] = {
     "nodal reactions": ("reactions act on nodes and feet, equal and opposite", "N"),
     "Signorini: compression": ("r_n ≥ 0", "N"),
     "Signorini: complementarity": ("w_n r_n = 0", "J"),
-    "Coulomb: cone": ("|r_t| ≤ μ r_n", "N"),
+    "Coulomb: cone": ("|r_t| ≤ μ r_n, or in the ellipse of both μ", "N"),
     "Coulomb: slip": ("μ r_n |w_t| + r_t w_t = 0", "J"),
     "certificate": ("the history's certificate covers the bi-potential gap of the step", "J"),
 }

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from functools import cached_property, partial
 
 import numpy as np
@@ -12,7 +12,8 @@ from carom.auditing.bodies.body import AuditBody
 from carom.auditing.bodies.mass import NoMassInsideError
 from carom.auditing.bodies.places import Attached
 from carom.auditing.contact.interference import Interference
-from carom.auditing.contact.obstacles import AuditObstacle, Cornered, obstacle_of
+from carom.auditing.contact.obstacles import AuditObstacle, Cornered, Round, obstacle_of
+from carom.auditing.contact.overlaps import corners_in, crossed, nodes_in, round_in
 from carom.auditing.contact.pairs import ALIKE, Pairs, build_sides
 from carom.auditing.drives.loads import Loads
 from carom.auditing.drives.springs import AuditSpring, build_spring
@@ -22,7 +23,7 @@ from carom.auditing.targets.feet import Target
 from carom.auditing.targets.gregory import GregoryPatches
 from carom.auditing.targets.sheet import FlatPatches, Sheet
 from carom.case.analysis import Conserving, Static, Theta
-from carom.case.body import DescribedBody, ReducedBody, RigidBody
+from carom.case.body import Body, DescribedBody, ReducedBody, RigidBody
 from carom.case.cohesion import holds
 from carom.case.foreign_body import ForeignEntry
 from carom.case.full_stage import FullStage
@@ -46,7 +47,9 @@ class AuditModel:
     cells
         Nodes of each cell, by body.
     types
-        VTK's type of the cells, by body.
+        VTK's types of the cells, by body.
+    touching_themselves
+        Names of the bodies that have touched themselves.
 
     Raises
     ------
@@ -60,13 +63,15 @@ class AuditModel:
         stage: FullStage,
         points: Array,
         cells: list[Indices],
-        types: list[int],
+        types: list[Indices],
+        *,
+        touching_themselves: Collection[str] = (),
     ) -> None:
-        _refuse_what_is_driven(scenario, stage)
+        _refuse(scenario)
         self.scenario, self.stage = scenario, stage
         self.dimension = scenario.dimension
         """2 in the plane, 3 in space."""
-        self._pairs = Pairs(scenario, stage)
+        self._pairs = Pairs(scenario, stage, touching_themselves)
         self.analysis, self.contact = stage.analysis, stage.contact
         self.points = points
         condition = self.contact.condition
@@ -110,6 +115,7 @@ class AuditModel:
         """Those of every body."""
         self.springs = [build_spring(spring, self) for spring in scenario.springs]
         self._depths: dict[tuple[int, int], Array] = {}
+        self._deepest: dict[tuple[int, int], float] = {}
         self.before: AuditModel | None = None
         """The stage before."""
         self.size = max(_diameter(b.points) for b in self.bodies)
@@ -252,13 +258,43 @@ class AuditModel:
             x = body.points[body.sources]
             if self.is_round(source, target):
                 gaps = np.full(len(x), self.round_gap(source, target, self.points, 0.0)[0])
-            elif target < 0:
-                gaps = self.obstacles[-1 - target].distance(x, 0.0)
+                depths[body.sources] = np.maximum(-gaps, 0.0)
+            elif target >= 0:
+                faced = (self.targets[target], self.bodies[target].points)
+                depths[body.sources] = nodes_in(body, *faced)
+            elif isinstance(shape := self.obstacles[-1 - target].shape, Cornered):
+                depths[body.sources] = nodes_in(body, shape.target, shape.corners)
             else:
-                gaps = self.targets[target].signed_distance(x, self.bodies[target].points)
-            depths[body.sources] = np.maximum(-np.where(np.isfinite(gaps), gaps, 0.0), 0.0)
+                gaps = self.obstacles[-1 - target].distance(x, 0.0)
+                depths[body.sources] = np.maximum(-gaps, 0.0)
             self._depths[source, target] = depths
         return self._depths[source, target]
+
+    def deepest(self, source: int, target: int) -> float:
+        """Return how deep the deepest contact of two is as drawn [m], checked from either side."""
+        key = (source, target)
+        if key not in self._deepest:
+            sides = [s for s in self.sides if {s.source, s.target} == set(key)]
+            depths = [float(self.drawn_depths(s.source, s.target).max()) for s in sides]
+            depths += [self._between_nodes(s.source, s.target) for s in sides]
+            self._deepest[key] = max(depths, default=0.0)
+        return self._deepest[key]
+
+    def _between_nodes(self, source: int, target: int) -> float:
+        """Return how deep two are as drawn at corners and edges, or facets before the round [m]."""
+        body = self.bodies[source]
+        if self.is_round(source, target):
+            return 0.0
+        if target >= 0:
+            return crossed(body, self.bodies[target]) if self.dimension == 3 else 0.0
+        shape, deepest = self.obstacles[-1 - target].shape, 0.0
+        if isinstance(shape, Cornered):
+            deepest = corners_in(body, self.targets[source], shape.corners)
+            if self.dimension == 3:
+                deepest = max(deepest, crossed(body, shape))
+        elif isinstance(shape, Round) and self.dimension == 3:
+            deepest = round_in(body, shape)
+        return deepest
 
     def tracks(self) -> list[tuple[str, int]]:
         """Return the names of tracked points and the nodes nearest to them."""
@@ -269,9 +305,9 @@ class AuditModel:
             tracks.append((track.name, int(distance.argmin()) + body.span.start))
         return tracks
 
-    def _build_bodies(self, cells: list[Indices], types: list[int]) -> Iterator[AuditBody]:
+    def _build_bodies(self, cells: list[Indices], types: list[Indices]) -> Iterator[AuditBody]:
         first = 0
-        for entry, nodes, vtk_type in zip(self.scenario.bodies, cells, types, strict=True):
+        for entry, nodes, own in zip(self.scenario.bodies, cells, types, strict=True):
             if isinstance(entry, ForeignEntry):
                 raise InputError("cannot audit a body of another code, whose law no file holds")
             last = int(nodes.max()) + 1
@@ -281,7 +317,7 @@ class AuditModel:
                 AuditBody,
                 entry,
                 self.scenario.materials,
-                vtk_type=vtk_type,
+                types=own,
                 nodes=nodes - first,
                 points=self.points[first:last],
                 first_node=first,
@@ -314,7 +350,8 @@ class AuditModel:
         places = [body.places(at) for at in attached if at.body == entry.name]
         nodes = [place.nodes for several in places for place in several]
         touched = np.isin(np.concatenate([[-1], *nodes]), body.surface)
-        return self._pairs.may_touch(entry.name) and not touched.any()
+        is_named = isinstance(entry, Body) and entry.self_contact is True
+        return (is_named or self._pairs.may_touch_others(entry.name)) and not touched.any()
 
     @property
     def impacts(self) -> bool:
@@ -344,12 +381,7 @@ class AuditModel:
 def _target(body: AuditBody, *, smooth: bool) -> Target:
     if body.dimension == 2:
         return Curve(body.facets, body.points, smooth=smooth)
-    kind = body.cells.kind.facet
-    if not smooth:
-        return Sheet(body.facets, FlatPatches(kind, body.facets))
-    if kind.degree > 1:
-        raise InputError("cannot audit smooth targets over facets of second order in space yet")
-    return Sheet(body.facets, GregoryPatches(kind, body.facets, body.points))
+    return Sheet(GregoryPatches(body.facets, body.points) if smooth else FlatPatches(body.facets))
 
 
 def _diameter(points: Array) -> float:
@@ -357,13 +389,8 @@ def _diameter(points: Array) -> float:
     return 2.0 * float(np.linalg.norm(points - points.mean(axis=0), axis=1).max())
 
 
-def _refuse_what_is_driven(scenario: Scenario, stage: FullStage) -> None:
+def _refuse(scenario: Scenario) -> None:
     """Refuse what the auditor has no second implementation of."""
-    contact = stage.contact
-    resolves = contact.resolve_overlap or any(pair.resolve_overlap for pair in contact.pairs)
-    if resolves and scenario.dimension == 3:
-        # Edges that cross have depths of their own as drawn.
-        raise InputError("cannot audit overlaps that are taken up in space yet")
     if any(map(holds, (scenario.contact.cohesion, *(p.cohesion for p in scenario.contact.pairs)))):
         raise InputError("cannot audit surfaces that hold together yet")
     if scenario.output.audit and any(body.kind == "reduced" for body in scenario.bodies):

@@ -6,6 +6,7 @@ import pytest
 from carom.auditing.contact.crossings import crossings
 from carom.auditing.mesh.kinds import KINDS
 from carom.auditing.mesh.quadrature import rule_of_masses, rule_of_stresses
+from carom.auditing.targets.domain import SQUARE, TRIANGLE
 from carom.auditing.targets.gregory import GregoryPatches
 from carom.auditing.targets.sheet import FlatPatches, Sheet
 
@@ -39,10 +40,7 @@ def cube_sphere(n, *, triangles=False):
 
 
 def sheet(facets, points, *, smooth):
-    kind = KINDS["tri3" if facets.shape[1] == 3 else "quad4"]
-    if smooth:
-        return Sheet(facets, GregoryPatches(kind, facets, points))
-    return Sheet(facets, FlatPatches(kind, facets))
+    return Sheet(GregoryPatches(facets, points) if smooth else FlatPatches(facets))
 
 
 @pytest.mark.parametrize("triangles", [False, True])
@@ -61,9 +59,9 @@ def test_a_smooth_sphere_is_round_to_fourth_order_and_a_faceted_one_to_second(tr
 @pytest.mark.parametrize("triangles", [False, True])
 def test_tangent_planes_of_neighbours_agree_however_nodes_move(triangles):
     facets, points = cube_sphere(5, triangles=triangles)
-    patches = GregoryPatches(KINDS["tri3" if triangles else "quad4"], facets, points)
+    patches = GregoryPatches(facets, points)
     moved = points + RNG.normal(scale=0.03, size=points.shape)
-    corners = patches.domain.corners
+    corners = (TRIANGLE if triangles else SQUARE).corners
     # The middle of a side, as its facet has it and as the next one does.
     seen = {}
     for facet, nodes in enumerate(facets.tolist()):
@@ -148,9 +146,11 @@ def test_rules_are_exact_to_their_degree():
             points, weights = rule
             for power in range(degree + 1):
                 found = weights @ points[:, 0] ** power
-                if kind.is_simplex:
-                    # ∫x^p = p! / (p + d)!
-                    exact = 1.0 / np.prod(np.arange(power + 1, power + kind.dimension + 1))
+                if kind.is_simplex or kind.is_wedge:
+                    # ∫x^p = p! / (p + d)!, of a wedge twice that of its triangle.
+                    around = 2 if kind.is_wedge else kind.dimension
+                    exact = 1.0 / np.prod(np.arange(power + 1, power + around + 1))
+                    exact *= 2.0 ** (kind.dimension - around)
                 else:
                     exact = 2.0**kind.dimension * (power % 2 == 0) / (power + 1)
                 assert found == pytest.approx(exact, abs=1e-14), (name, power)

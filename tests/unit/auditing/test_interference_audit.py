@@ -107,23 +107,3 @@ def test_an_interference_that_is_not_that_of_the_run_is_found(tmp_path, run):
 def test_work_of_interference_that_was_changed_is_found(tmp_path, run):
     tamper = in_h5("audit.h5:steps/000001/ledger@prescribed", lambda work: 1.0001 * work)
     assert "ledger: prescribed" in refuted_after(run, tmp_path, tamper)
-
-
-def test_overlaps_in_space_cannot_be_audited(tmp_path, run):
-    block = {"kind": "box", "corner": [0, 0, 0], "size": [1, 1, 1], "divisions": [1, 1, 1]}
-    case = {
-        "dimension": 3,
-        "analysis": STATIC,
-        "materials": {
-            "m": {"kind": "linear-elastic", "young": 1e9, "poisson": 0.3, "density": 1e3}
-        },
-        "bodies": [{"name": "block", "material": "m", "mesh": block}],
-        "obstacles": [
-            {"kind": "plane", "name": "floor", "point": [0, 0, 0.01], "normal": [0, 0, 1]}
-        ],
-        "motions": [{"kind": "fixed", "body": "block", "on": "top"}],
-        "contact": {"resolve_overlap": True},
-    }
-    carom.run(carom.Scenario.from_dict(case), out=tmp_path)
-    with pytest.raises(carom.InputError, match="cannot audit overlaps that are taken up in space"):
-        carom.audit(tmp_path)

@@ -6,7 +6,7 @@ import pytest
 import carom
 from carom.auditing.bodies.body import AuditBody
 from carom.auditing.bodies.mass import affine_weights
-from carom.auditing.mesh.cells import boundary
+from carom.auditing.mesh.cells import Cells
 from carom.auditing.mesh.kinds import KINDS
 
 STRESSES = (None, carom.InitialStress(xx=0.4, yy=-0.2, zz=0.1, xy=0.3))
@@ -51,11 +51,12 @@ def body(
         initial_stress=initial_stress,
         mesh=carom.Rectangle(corner=[0, 0], size=[1, 1], divisions=[1, 1]),
     )
+    nodes = TRIANGLES if triangles else QUADS
     return AuditBody(
         entry,
         {"m": MATERIALS[law]},
-        vtk_type=KINDS["tri3" if triangles else "quad4"].vtk_type,
-        nodes=TRIANGLES if triangles else QUADS,
+        types=np.full(len(nodes), KINDS["tri3" if triangles else "quad4"].vtk_type),
+        nodes=nodes,
         points=POINTS,
         first_node=0,
         massless=massless,
@@ -125,7 +126,8 @@ def test_the_mean_rotation_of_a_turned_body_is_its_rotation():
 
 
 def test_boundary_has_the_body_on_its_left():
-    facets = boundary(KINDS["quad4"], QUADS)
+    types = np.full(len(QUADS), KINDS["quad4"].vtk_type)
+    facets = Cells(types, QUADS, POINTS, 1.0).outer_sides()
     assert len(facets) == 14
     (ax, ay), (bx, by) = POINTS[facets].transpose(1, 2, 0)
     assert 0.5 * (ax * by - ay * bx).sum() == pytest.approx(body().cells.weights.sum() / 0.3)

@@ -328,7 +328,7 @@ def test_a_changed_number_is_found_in_space(results, tmp_path, what):
     assert {check.name for check in carom.audit(directory).refuted} - {"files"}
 
 
-def test_cells_of_second_order_are_confirmed_but_smooth_targets_over_them_are_not(tmp_path):
+def test_cells_of_second_order_are_confirmed(tmp_path):
     small = {"kind": "ball", "centre": [0, 0, 1.0], "radius": 1, "divisions": 1, "rings": 1}
     case = balls("gap", "conserving", **{"analysis.end_time": 0.02, "output.fields_every": 0.01})
     case = case.model_dump(mode="json", exclude_none=True)
@@ -337,15 +337,3 @@ def test_cells_of_second_order_are_confirmed_but_smooth_targets_over_them_are_no
     refuted, checks = audited(carom.Scenario.from_dict(case), tmp_path)
     assert refuted == []
     assert checks["Coulomb: cone"].count > 0
-    in_case('targets = "faceted"', 'targets = "smooth"')(tmp_path)
-    with pytest.raises(carom.InputError, match="smooth targets over facets of second order in sp"):
-        carom.audit(tmp_path)
-
-
-def test_friction_that_depends_on_the_direction_is_not_audited(results, tmp_path):
-    directory = tmp_path / "results"
-    shutil.copytree(results, directory)
-    law = '{ along = 0.1, across = 0.3, direction = [1, 0, 0], of = "floor" }'
-    in_case("friction = 0.2", f"friction = {law}")(directory)
-    with pytest.raises(carom.InputError, match="cannot audit friction that depends on the direc"):
-        carom.audit(directory)

@@ -20,10 +20,9 @@ from carom.auditing.bodies.moving import MovingBody
 from carom.auditing.bodies.places import Attached, Place, place_on
 from carom.auditing.materials.composition import Composition
 from carom.auditing.materials.dilatation import MeanDilatation, Response
-from carom.auditing.mesh.cells import Cells, boundary
+from carom.auditing.mesh.cells import Cells
 from carom.auditing.mesh.drawn import drawn, nodes_of, unknown
 from carom.auditing.mesh.facets import Facets
-from carom.auditing.mesh.kinds import kind_of
 from carom.auditing.mesh.stiffness import reference_stiffness
 from carom.case.body import DescribedBody, ReducedBody, RigidBody
 from carom.case.material import Material
@@ -55,7 +54,7 @@ class AuditBody(MovingBody):
         What the case says of it.
     materials
         The materials of the case.
-    vtk_type, nodes, points
+    types, nodes, points
         Its cells and reference positions, see `Cells`.
     first_node
         Number of its first node in the model.
@@ -70,7 +69,7 @@ class AuditBody(MovingBody):
         entry: DescribedBody,
         materials: Mapping[str, Material],
         *,
-        vtk_type: int,
+        types: Indices,
         nodes: Indices,
         points: Array,
         first_node: int,
@@ -87,7 +86,13 @@ class AuditBody(MovingBody):
         """Modes of a reduced body beside the shapes of its contact surface."""
         self.drawn = drawn(entry, points.shape[1])
         """Its mesh as the case draws it."""
-        self.law = Composition(entry, materials, points[nodes].mean(axis=1), self.drawn)
+        self.revolution = entry.hypothesis == "axisymmetric"
+        """Whether it is one of revolution around x = 0."""
+        self.dimension = int(points.shape[1])
+        self.thickness = entry.thickness if self.dimension == 2 else 1.0
+        """Thickness [m]; 1 in space."""
+        self.cells = Cells(types, nodes, points, self.thickness, revolution=self.revolution)
+        self.law = Composition(entry, materials, self.cells.middles, self.drawn)
         """Its materials, cell by cell."""
         self.growth = Growth.of(entry, large=self.law.objective)
         """How it grows."""
@@ -96,14 +101,8 @@ class AuditBody(MovingBody):
         """For every node the one that it moves with, itself as a rule, [node_count]."""
         self.images: Indices = np.flatnonzero(self.masters != np.arange(len(points)))
         """Nodes that move with another: of a body that repeats itself."""
-        self.revolution = entry.hypothesis == "axisymmetric"
-        """Whether it is one of revolution around x = 0."""
         self.turns = self.law.objective and not self.images.size and not self.revolution
         """Whether it can turn without storing energy."""
-        kind, self.dimension = kind_of(vtk_type), int(points.shape[1])
-        self.thickness = entry.thickness if self.dimension == 2 else 1.0
-        """Thickness [m]; 1 in space."""
-        self.cells = Cells(kind, nodes, points, self.thickness, revolution=self.revolution)
         size = float(np.linalg.norm(np.ptp(points, axis=0)))
         on_axis = points[:, 0] <= ON_THE_AXIS * size
         self.on_axis: Indices = np.flatnonzero(on_axis & self.revolution)
@@ -112,7 +111,7 @@ class AuditBody(MovingBody):
         """What stresses its deformation has."""
         if dilates:
             self.response = MeanDilatation(self.law, self.cells.weights)
-        self.boundary: Indices = boundary(kind, nodes)
+        self.boundary: Indices = self.cells.outer_sides()
         """All facets of its boundary, the sides where it repeats itself too."""
         outer = self._outside()
         self.outline: Indices = outer
@@ -137,7 +136,7 @@ class AuditBody(MovingBody):
             _density(entry, self.law, self.cells, self.ball),
             lumped=entry.mass == "lumped",
             massless=self.massless,
-            facets=Facets(self.cells.kind.facet, self.facets, self.thickness),
+            facets=Facets(self.dimension, self.facets, self.thickness),
             added=[one for given in masses for one in self._added(given)],
         )
         self.more = np.zeros((1, 1))
@@ -173,7 +172,7 @@ class AuditBody(MovingBody):
 
     def faces(self, nodes: Indices) -> Facets:
         """Return facets of its boundary by their nodes."""
-        return Facets(self.cells.kind.facet, nodes, self.thickness, self.revolution)
+        return Facets(self.dimension, nodes, self.thickness, self.revolution)
 
     @property
     def facet_areas(self) -> Array:

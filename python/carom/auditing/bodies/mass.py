@@ -148,10 +148,10 @@ def _lumped(cells: Cells, local: Array) -> Array:
     mass of the cell (Hinton, Rock & Zienkiewicz 1976).
     """
     of_nodes = local.sum(axis=2)
-    if cells.kind.degree > 1:
-        diagonal = einsum("caa->ca", local)
-        whole = of_nodes.sum(axis=1, keepdims=True)
-        of_nodes = diagonal * whole / diagonal.sum(axis=1, keepdims=True)
+    diagonal = einsum("caa->ca", local)
+    whole = of_nodes.sum(axis=1, keepdims=True)
+    scaled = diagonal * whole / diagonal.sum(axis=1, keepdims=True)
+    of_nodes = np.where(cells.second[:, None], scaled, of_nodes)
     return cells.assembled(np.repeat(of_nodes[:, :, None], cells.dimension, axis=2))[:, :1]
 
 
@@ -191,8 +191,9 @@ def _inward(points: Array, facets: Facets) -> Array:
     """Return inward unit normals of the nodes of facets, shape [node_count, D]; else zero."""
     normal = np.zeros_like(points)
     vectors = facets.vectors(points)
-    for nodes in facets.nodes.T:
-        np.add.at(normal, nodes, -vectors)
+    for _, rows, nodes in facets.groups:
+        for corner in nodes.T:
+            np.add.at(normal, corner, -vectors[rows])
     size = np.linalg.norm(normal, axis=1, keepdims=True)
     return normal / np.where(size > 0, size, 1.0)
 

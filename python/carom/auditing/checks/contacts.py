@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from itertools import combinations
 from typing import Any
 
 import numpy as np
 
 from carom.auditing.arrays import Array, einsum, sizes
 from carom.auditing.bodies.body import AuditBody
+from carom.auditing.mesh.facets import grouped
 from carom.auditing.model import AuditModel
 from carom.auditing.report import Findings
 from carom.auditing.steps.contacts import Contacts, all_forces
@@ -51,7 +53,7 @@ class ContactChecks:
             # Of the other conditions the contacts before are where no stored state is.
             first = touching.first
             self._places(first, step.start, step, where)
-            force = (first.normal_force, sizes(first.friction_force))
+            force = (first.normal_force, first.friction_force)
             self._cone(first, step, force, first.most_friction, where)
         return self._laws(step, ruled, friction, where)
 
@@ -82,17 +84,22 @@ class ContactChecks:
         friction: Array,
         where: str,
     ) -> None:
-        """Check that normal and tangential forces are in the cones of these coefficients."""
+        """Check that normal and tangential forces are in the cones of these coefficients.
+
+        Forces have the shapes [count] and [count, D], coefficients [count, 2].
+        """
         total = float(np.abs(found.reaction).sum())
         size = np.linalg.norm(found.reaction, axis=1)
         off = size * self.turn(step) + self._scales.reaction(step, total)
         off += self._scales.least_reaction(step.dt)
         normal, across = force
         self._check("Signorini: compression", np.maximum(-normal, 0.0), off, where)
-        bounded = np.isfinite(friction)
-        excess = across - np.where(bounded, friction, 0.0) * normal
+        bounded = np.asarray(np.isfinite(friction).all(axis=1), dtype=bool)
+        cone = found.cone(np.where(bounded[:, None], friction, 0.0))
+        excess = cone.force(across) - cone.largest * normal
         excess = np.where(bounded, np.maximum(excess, 0.0), 0.0)
-        self._check("Coulomb: cone", excess, off * (1 + np.where(bounded, friction, 0.0)), where)
+        off = off / cone.lengths.min(axis=1)
+        self._check("Coulomb: cone", excess, off * (1 + cone.largest), where)
 
     def _laws(
         self, step: Step, ruled: Ruled, friction: Coefficients, where: str
@@ -100,22 +107,25 @@ class ContactChecks:
         found = step.touching.pressed
         signorini = ruled.normal * found.normal_force
         off = np.linalg.norm(found.reaction, axis=1) * self._scales.geometry(step)
-        self._check("Signorini: complementarity", signorini, off, where)
+        # A reaction that is round-off is one beside an open gap, too.
+        rough = np.abs(ruled.normal) * self._scales.least_reaction(step.dt)
+        self._check("Signorini: complementarity", signorini, off + rough, where)
         # Where a reaction is small, the solver's tolerance of it counts for more.
         slip = sizes(found.relative(step.d, found.shift)[1])
         off += slip * self._scales.reaction(step, float(np.abs(found.reaction).sum()))
         work = einsum("ki,ki->k", found.friction_force, ruled.across)
-        across = sizes(ruled.across)
-        coulomb = friction.least * found.normal_force * across + work
+        cone = found.cone(friction.least)
+        coulomb = cone.largest * found.normal_force * cone.slip(ruled.across) + work
         # Where μ is only bounded, friction takes no less than the least of it, and the cone says
         # that it takes no more.
         coulomb = np.where(friction.fixed, coulomb, np.maximum(coulomb, 0.0))
-        doubt = friction.doubt * np.maximum(found.normal_force, 0.0) * across
-        self._check("Coulomb: slip", coulomb, off * (1 + friction.least) + doubt, where)
+        pressed = np.maximum(found.normal_force, 0.0)
+        doubt = friction.doubt.max(axis=1) * pressed * sizes(ruled.across)
+        self._check("Coulomb: slip", coulomb, off * (1 + cone.largest) + doubt, where)
         by_law = ~friction.fixed
         if by_law.any():
-            force = (found.normal_force, sizes(found.friction_force))
-            most = np.where(by_law, friction.most + friction.doubt, np.inf)
+            force = (found.normal_force, found.friction_force)
+            most = np.where(by_law[:, None], friction.most + friction.doubt, np.inf)
             self._cone(found, step, force, most, where)
         total = float(np.abs(signorini).sum() + np.abs(coulomb).sum())
         self._findings.report("largest bi-potential gap of a step", total, "J")
@@ -126,7 +136,10 @@ def _shortest(body: AuditBody) -> float:
     """Return the shortest distance between nodes of a facet that may touch [m]."""
     if not len(body.facets):
         return np.inf
-    nodes = body.points[body.facets]
-    count = nodes.shape[1]
-    pairs = [(a, b) for a in range(count) for b in range(a)]
-    return float(min(np.linalg.norm(nodes[:, a] - nodes[:, b], axis=1).min() for a, b in pairs))
+    shortest = np.inf
+    for _, _, facets in grouped(body.facets, body.dimension):
+        nodes = body.points[facets]
+        for a, b in combinations(range(nodes.shape[1]), 2):
+            apart = np.linalg.norm(nodes[:, a] - nodes[:, b], axis=1)
+            shortest = min(shortest, float(apart.min()))
+    return shortest

@@ -8,6 +8,7 @@ import numpy as np
 
 from carom.auditing.arrays import Array, Indices, cross, einsum
 from carom.auditing.bodies.body import AuditBody
+from carom.auditing.mesh.facets import grouped
 from carom.auditing.targets.feet import BEYOND
 
 
@@ -39,11 +40,11 @@ class Crossings:
 
 def edges(body: AuditBody) -> Indices:
     """Return the straight lines from node to node around the facets that may touch, [count, 2]."""
-    kind = body.cells.kind.facet
     lines: list[Indices] = []
-    for side in kind.facets:
-        ends = [side[:2]] if len(side) == 2 else [side[[0, 2]], side[[2, 1]]]
-        lines += [body.facets[:, pair] for pair in ends]
+    for kind, _, facets in grouped(body.facets, body.dimension):
+        for side in kind.facets:
+            ends = [side[:2]] if len(side) == 2 else [side[[0, 2]], side[[2, 1]]]
+            lines += [facets[:, pair] for pair in ends]
     every: Indices = np.unique(np.sort(np.concatenate(lines), axis=1), axis=0)
     return every + body.span.start
 
@@ -80,7 +81,27 @@ def crossings(position: Array, source: Indices, target: Indices, towards: Array)
         source=source,
         target=target,
         gap=np.where(within, gap, np.inf),
-        normal=normal,
+        normal=np.where(within[:, None], normal, 0.0),
         along=np.clip(along, -BEYOND, 1.0 + BEYOND),
         beyond=np.maximum(np.abs(along - 0.5) - 0.5, 0.0).max(axis=1),
     )
+
+
+def drawn_depths(points: Array, found: Crossings, shifts: tuple[int, int]) -> Array:
+    """Return how deep edges that cross were as drawn [m], shape [count]; zero if they did not.
+
+    Parameters
+    ----------
+    points
+        Where nodes are drawn [m], shape [node_count, 3].
+    found
+        The edges, with normals out of the target.
+    shifts
+        What the numbers of the ends of either side are more than those of `points`.
+    """
+    depths = np.zeros(len(found.gap))
+    for k in np.flatnonzero(np.isfinite(found.gap)):
+        ends = (found.source[k : k + 1] - shifts[0], found.target[k : k + 1] - shifts[1])
+        gap = float(crossings(points, *ends, found.normal[k]).gap[0])
+        depths[k] = max(-gap, 0.0) if np.isfinite(gap) else 0.0
+    return depths

@@ -15,7 +15,6 @@ from carom.case.friction import (
     RateAndState,
     StaticKinetic,
 )
-from carom.errors import InputError
 
 
 @dataclass(frozen=True)
@@ -50,13 +49,17 @@ class Law:
     """
 
     def __init__(self, given: Friction) -> None:
+        self.grain = given if isinstance(given, OrthotropicFriction) else None
+        """What the case says of directions, if there are two with laws of their own."""
+        self.directions: tuple[Law, Law] = (self, self)
+        """The laws of both directions."""
         if isinstance(given, OrthotropicFriction):
-            raise InputError("cannot audit friction that depends on the direction yet")
+            self.directions = (Law(given.along), Law(given.across))
         self._given = given
         self._formula = Formula(given.formula) if isinstance(given, FrictionFormula) else None
         names = self._formula.names() if self._formula else set()
         self.constant = isinstance(given, float | int)
-        """Whether it is a coefficient."""
+        """Whether it is a coefficient, or one of each direction."""
         by_distance = isinstance(given, StaticKinetic) and given.distance is not None
         self.ages = isinstance(given, RateAndState)
         """Whether it knows how old a contact is."""
@@ -66,6 +69,12 @@ class Law:
         """Whether the law is between what it says of the least and the most of distance and age."""
         self.presses = "p" in names
         """Whether it depends on the pressure."""
+        if self.grain is not None:
+            both = self.directions
+            self.constant = all(law.constant for law in both)
+            self.remembers = any(law.remembers for law in both)
+            self.bounded = all(law.bounded for law in both)
+            self.presses = any(law.presses for law in both)
 
     @property
     def holding(self) -> float | None:
@@ -130,12 +139,14 @@ class Law:
 
     @property
     def fixed(self) -> float:
-        """μ where it is a coefficient, else NaN."""
+        """μ of one direction where it is a coefficient, else NaN."""
         return float(self._given) if isinstance(self._given, float | int) else np.nan
 
     @property
     def most(self) -> float:
         """The largest μ that there can be; infinite where the law has no bound."""
+        if self.grain is not None:
+            return max(law.most for law in self.directions)
         given = self._given
         if isinstance(given, float | int):
             return float(given)

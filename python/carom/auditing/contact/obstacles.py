@@ -122,8 +122,7 @@ class Cornered:
         if corners.shape[1] == 2:
             self.target: Target = Curve(facets, corners, smooth=False)
         else:
-            kind = KINDS["tri3" if facets.shape[1] == 3 else "quad4"]
-            self.target = Sheet(facets, FlatPatches(kind, facets))
+            self.target = Sheet(FlatPatches(facets))
 
     @classmethod
     def box(cls, corner: Array, size: Array) -> Cornered:

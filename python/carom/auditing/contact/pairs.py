@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import partial
 
@@ -10,7 +10,9 @@ import numpy as np
 
 from carom.auditing.bodies.body import AuditBody
 from carom.auditing.contact.friction import Law
+from carom.auditing.contact.grain import Grain
 from carom.auditing.contact.interference import Interference
+from carom.case.body import Body
 from carom.case.contact import Pair
 from carom.case.full_stage import FullStage
 from carom.case.scenario import Scenario
@@ -39,6 +41,8 @@ class Side:
         Whether nodes of either body are without mass.
     interference
         By how much their surfaces are pushed apart.
+    grain
+        The direction that friction depends on; None where it is the same in all.
     """
 
     source: int
@@ -48,6 +52,7 @@ class Side:
     restitution: float | None = None
     massless: bool = False
     interference: Interference = field(default_factory=Interference)
+    grain: Grain | None = None
 
 
 class Pairs:
@@ -59,17 +64,27 @@ class Pairs:
         The case.
     stage
         The analysis of it whose law of contact holds.
+    touching_themselves
+        Names of the bodies that have touched themselves, of those that deform.
     """
 
-    def __init__(self, scenario: Scenario, stage: FullStage) -> None:
+    def __init__(
+        self, scenario: Scenario, stage: FullStage, touching_themselves: Collection[str] = ()
+    ) -> None:
         self._scenario, self._stage = scenario, stage
         self._contact = stage.contact
         names = [body.name for body in scenario.bodies]
         planes = [obstacle.name for obstacle in scenario.obstacles]
+        own = {
+            body.name
+            for body in scenario.bodies
+            if isinstance(body, Body) and body.self_contact is not False
+        }
+        own &= set(touching_themselves)
         self.names = [
             (first, second)
             for a, first in enumerate(names)
-            for second in (*names[a + 1 :], *planes)
+            for second in (*([first] if first in own else []), *names[a + 1 :], *planes)
             if self.enabled(first, second)
         ]
         """The names of all that may touch, two and two, in the order of the case."""
@@ -83,9 +98,9 @@ class Pairs:
         entry = self.of(a, b)
         return entry is None or entry.enabled
 
-    def may_touch(self, name: str) -> bool:
-        """Return whether there is anything that a body may touch."""
-        return any(name in pair for pair in self.names)
+    def may_touch_others(self, name: str) -> bool:
+        """Return whether there is anything else that a body may touch."""
+        return any(name in pair and set(pair) != {name} for pair in self.names)
 
     def obstacle(self, name: str) -> int:
         """Return the number of an obstacle."""
@@ -133,15 +148,21 @@ def build_sides(pairs: Pairs, bodies: Sequence[AuditBody], *, impacts: bool) -> 
         a, b = number[first], number[second]
         met = [bodies[index] for index in (a, b) if index >= 0]
         ruled = impacts and all(body.rigid for body in met)
+        law = pairs.law(first, second)
         make = partial(
             Side,
-            law=pairs.law(first, second),
+            law=law,
+            grain=_grain(law, met),
             restitution=pairs.restitution(first, second) if ruled else None,
             massless=any(len(body.massless) > 0 for body in met),
             interference=pairs.interference(first, second),
         )
         if b < 0:
             yield make(a, b, two_sided=False)
+            continue
+        if a == b:
+            # Its nodes are checked against its facets: both sides at once.
+            yield make(a, a, two_sided=True)
             continue
         sources, swapped = pairs.sources(first, second)
         if sources == "finer":
@@ -155,6 +176,14 @@ def build_sides(pairs: Pairs, bodies: Sequence[AuditBody], *, impacts: bool) -> 
             yield make(a, b, two_sided=both)
         if backward:
             yield make(b, a, two_sided=both)
+
+
+def _grain(law: Law, met: Sequence[AuditBody]) -> Grain | None:
+    """Return the direction that the friction of bodies depends on, or of one and an obstacle."""
+    if law.grain is None:
+        return None
+    carrier = next((body for body in met if body.name == law.grain.of), None)
+    return Grain(np.array(law.grain.direction), carrier)
 
 
 def _is_finer(body: AuditBody, other: AuditBody) -> bool:

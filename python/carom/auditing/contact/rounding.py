@@ -30,6 +30,11 @@ class NearestPlace:
     normal: Array
     stencil: list[tuple[int, float]]
 
+    @property
+    def nodes(self) -> Indices:
+        """Nodes of the facet or the edge that it is on."""
+        return np.array([node for node, _ in self.stencil])
+
 
 def nearest_places(
     shape: Shape, body: AuditBody, node: int, position: Array, known: Indices | None
@@ -64,7 +69,7 @@ def nearest_places(
     if known is not None:
         around = body.facets[np.isin(body.facets, known).all(axis=1)]
     for facet in around:
-        sheet = Sheet(facet[None], FlatPatches(body.cells.kind.facet, facet[None]))
+        sheet = Sheet(FlatPatches(facet[None]))
         weights = sheet.closest_weights(shape.centre, position)
         stencil = [(int(n), float(w)) for n, w in zip(facet, weights, strict=True)]
         yield _at(shape, weights @ position[facet], stencil)

@@ -9,6 +9,7 @@ from typing import Protocol
 import numpy as np
 
 from carom.auditing.arrays import Array, Indices, Mask
+from carom.auditing.mesh.facets import corners_of
 from carom.case.body import DescribedBody
 from carom.case.mesh import Ball, Box, Cylinder, Disc, MeshFile, Rectangle, Ring
 from carom.errors import InputError
@@ -139,7 +140,7 @@ class _Round:
 
     def misfit(self, points: Array, outline: Indices) -> float:
         # Nodes within curved or straight sides are between others.
-        corners = np.unique(_corners(outline, points.shape[1]))
+        corners = np.unique(corners_of(outline, points.shape[1]))
         off = [
             np.abs(self._measured(points[corners], name) - figure)
             for name, figure in (*self.radii.items(), *self.ends.items())
@@ -151,7 +152,7 @@ class _Round:
         if figure is None:
             return None
         size = max(*self.radii.values(), *self.ends.values(), 0.0)
-        corners = _corners(outline, points.shape[1])
+        corners = corners_of(outline, points.shape[1])
         off = np.abs(self._measured(points, name) - figure)[corners].max(axis=1)
         return np.asarray(off <= ON_SIDE * size)
 
@@ -169,12 +170,6 @@ class _Round:
 
     def cells(self, name: str) -> Indices:
         raise unknown(name)
-
-
-def _corners(facets: Indices, dimension: int) -> Indices:
-    """Return the corners of facets, which are the first of their nodes."""
-    count = 2 if dimension == 2 else 3 if facets.shape[1] in (3, 6) else 4
-    return facets[:, :count]
 
 
 _SIDES = {
@@ -220,7 +215,7 @@ class _Read:
     points: Array
     cell_count: int
     nodes: Mapping[str, Indices]
-    named_facets: Mapping[str, Indices]
+    named_facets: Mapping[str, set[frozenset[int]]]
     named_cells: Mapping[str, Indices] = field(default_factory=dict)
 
     @classmethod
@@ -238,7 +233,11 @@ class _Read:
             cell_count=sum(len(nodes) for _, nodes in arrays.blocks),
             nodes=arrays.node_sets,
             named_facets={
-                key: np.concatenate([_corners(facets, dimension) for facets in several])
+                key: {
+                    frozenset(corners)
+                    for facets in several
+                    for corners in corners_of(facets, dimension).tolist()
+                }
                 for key, several in arrays.facet_sets.items()
             },
             named_cells=arrays.cell_sets,
@@ -253,9 +252,9 @@ class _Read:
     def facets(self, name: str, points: Array, outline: Indices) -> Mask | None:
         if name not in self.named_facets:
             return None
-        known = {tuple(sorted(facet)) for facet in self.named_facets[name].tolist()}
-        mine = _corners(outline, points.shape[1]).tolist()
-        return np.array([tuple(sorted(facet)) in known for facet in mine], dtype=bool)
+        known = self.named_facets[name]
+        mine = corners_of(outline, points.shape[1]).tolist()
+        return np.array([frozenset(facet) in known for facet in mine], dtype=bool)
 
     def cells(self, name: str) -> Indices:
         if name not in self.named_cells:

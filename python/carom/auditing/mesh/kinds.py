@@ -21,7 +21,8 @@ from carom.errors import InputError
 class Kind:
     """A kind of cell or facet over its reference domain.
 
-    Simplices have their corners at the origin and the unit vectors, squares and cubes at ±1.
+    Simplices have their corners at the origin and the unit vectors, squares and cubes at ±1; a
+    wedge is a triangle that goes from −1 to 1.
 
     Parameters
     ----------
@@ -60,9 +61,14 @@ class Kind:
         return self.dimension > 1 and bool((self.nodes >= 0).all())
 
     @property
+    def is_wedge(self) -> bool:
+        """Whether the domain is a triangle times a segment."""
+        return self.dimension == 3 and self.corner_count == 6
+
+    @property
     def corner_count(self) -> int:
         """Number of corners, the nodes that come first."""
-        return self.dimension + 1 if self.is_simplex else 2**self.dimension
+        return 1 + max((max(side) for side in self.sides), default=1)
 
     @property
     def middle(self) -> Array:
@@ -94,8 +100,13 @@ class Kind:
 
     @cached_property
     def facets(self) -> Indices:
-        """Nodes of the sides, in the order of the kind of the sides, shape [side, a]."""
-        return np.array([self._nodes_on(corners) for corners in self.sides])
+        """Nodes of the sides, in the order of the kind of the sides, shape [side, a].
+
+        Sides that have fewer nodes than others end with their first one.
+        """
+        sides = [self._nodes_on(corners) for corners in self.sides]
+        widest = max(map(len, sides))
+        return np.array([side + side[:1] * (widest - len(side)) for side in sides])
 
     def _nodes_on(self, corners: tuple[int, ...]) -> list[int]:
         """Return the nodes of a side: its corners, middles of its edges, and its middle."""
@@ -107,27 +118,26 @@ class Kind:
         found = (np.flatnonzero((self.nodes == middle).all(axis=1)) for middle in middles)
         return [*corners, *(int(node) for nodes in found for node in nodes)]
 
-    @property
-    def facet(self) -> Kind:
-        """Kind of its sides."""
-        count = self.facets.shape[1]
-        return next(
-            kind
-            for kind in KINDS.values()
-            if kind.dimension == self.dimension - 1 and len(kind.nodes) == count
-        )
+
+def kind_with(dimension: int, node_count: int) -> Kind:
+    """Return the kind of a dimension with so many nodes; below three there is one for each."""
+    return next(
+        kind
+        for kind in KINDS.values()
+        if kind.dimension == dimension and len(kind.nodes) == node_count
+    )
 
 
-def kind_of(vtk_type: int) -> Kind:
-    """Return the kind of cells of a VTK type.
+def kind_of(vtk_type: int, dimension: int) -> Kind:
+    """Return the kind of cells of a VTK type and a dimension.
 
     Raises
     ------
     InputError
-        The auditor does not know it.
+        The auditor does not know it, or it has another dimension.
     """
     for kind in KINDS.values():
-        if kind.vtk_type == vtk_type:
+        if (kind.vtk_type, kind.dimension) == (vtk_type, dimension):
             return kind
     raise InputError(f"cannot audit cells of VTK type {vtk_type} yet")
 
@@ -154,6 +164,16 @@ def _powers(dimension: int, degree: int, keep: str) -> Indices:
     return np.array(list(every), dtype=np.int64)
 
 
+def _swept(degree: int) -> Indices:
+    """Return the exponents of a wedge: complete in the triangle, and to 1 along the segment.
+
+    Those of the second degree along it have less than that in the triangle.
+    """
+    around = _powers(2, degree, "complete").tolist()
+    powers = [(*p, k) for p in around for k in range(degree + 1) if k < 2 or sum(p) < 2]
+    return np.array(powers, dtype=np.int64)
+
+
 def _with_middles(corners: Array, edges: list[tuple[int, int]]) -> Array:
     return np.concatenate([corners, [0.5 * (corners[a] + corners[b]) for a, b in edges]])
 
@@ -165,10 +185,16 @@ _SQUARE = np.array([[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]])
 _CUBE = np.array([[x, y, z] for z in (-1.0, 1.0) for x, y in _SQUARE])
 
 _AROUND_TRIANGLE = [(0, 1), (1, 2), (2, 0)]
+_WEDGE = np.array([[*corner, z] for z in (-1.0, 1.0) for corner in _TRIANGLE])
 _AROUND_SQUARE = [(0, 1), (1, 2), (2, 3), (3, 0)]
 _UPRIGHT = [(0, 4), (1, 5), (2, 6), (3, 7)]
 _OF_CUBE = [*_AROUND_SQUARE, *((a + 4, b + 4) for a, b in _AROUND_SQUARE), *_UPRIGHT]
 _OF_TETRAHEDRON = [*_AROUND_TRIANGLE, (0, 3), (1, 3), (2, 3)]
+_OF_WEDGE = [
+    *_AROUND_TRIANGLE,
+    *((a + 3, b + 3) for a, b in _AROUND_TRIANGLE),
+    *((a, a + 3) for a in range(3)),
+]
 _CENTRE = [[0.0, 0.0]]
 _SIDES = np.array([[-1, 0, 0], [1, 0, 0], [0, -1, 0], [0, 1, 0], [0, 0, -1], [0, 0, 1], [0, 0, 0]])
 """Centres of the sides of a cube, and its own."""
@@ -178,11 +204,13 @@ _CUBE_SIDES = (
     *((0, 3, 2, 1), (4, 5, 6, 7), (0, 1, 5, 4)),
     *((1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7)),
 )
+_WEDGE_SIDES = ((0, 2, 1), (3, 4, 5), (0, 1, 4, 3), (1, 2, 5, 4), (2, 0, 3, 5))
 
 _TRI6 = _with_middles(_TRIANGLE, _AROUND_TRIANGLE)
 _QUAD8 = _with_middles(_SQUARE, _AROUND_SQUARE)
 _TET10 = _with_middles(_TETRAHEDRON, _OF_TETRAHEDRON)
 _HEX20 = _with_middles(_CUBE, _OF_CUBE)
+_WEDGE15 = _with_middles(_WEDGE, _OF_WEDGE)
 
 _TRIANGLE_SIDES = tuple(_AROUND_TRIANGLE)
 _SQUARE_SIDES = tuple(_AROUND_SQUARE)
@@ -205,6 +233,8 @@ KINDS = {
         ),
         Kind("tet4", 10, _TETRAHEDRON, _powers(3, 1, "complete"), _TETRAHEDRON_SIDES),
         Kind("tet10", 24, _TET10, _powers(3, 2, "complete"), _TETRAHEDRON_SIDES),
+        Kind("wedge6", 13, _WEDGE, _swept(1), _WEDGE_SIDES),
+        Kind("wedge15", 26, _WEDGE15, _swept(2), _WEDGE_SIDES),
         Kind("hex8", 12, _CUBE, _powers(3, 1, "direction"), _CUBE_SIDES),
         Kind("hex20", 25, _HEX20, _powers(3, 2, "serendipity"), _CUBE_SIDES),
         Kind(

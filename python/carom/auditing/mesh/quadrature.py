@@ -25,9 +25,19 @@ def rule_of_masses(kind: Kind, *, revolution: bool = False) -> Rule:
 
 
 def _rule(kind: Kind, degree: int) -> Rule:
+    if kind.is_wedge:
+        return _swept(kind)
     if not kind.is_simplex:
         return _gauss(kind)
     return (_triangle if kind.dimension == 2 else _tetrahedron)(degree)
+
+
+def _swept(kind: Kind) -> Rule:
+    """Return the rule of a wedge: slopes along it have the whole degree of the triangle."""
+    places, weights = _triangle(2 * kind.degree)
+    heights, shares = np.polynomial.legendre.leggauss(kind.degree + 1)
+    table = [np.column_stack([places, np.full(len(places), z)]) for z in heights]
+    return np.concatenate(table), np.concatenate([share * weights for share in shares])
 
 
 def _gauss(kind: Kind) -> Rule:

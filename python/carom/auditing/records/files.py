@@ -148,18 +148,19 @@ class Files:
             points = root["Points"][:, : self.scenario.dimension]
             connectivity, offsets = root["Connectivity"][:], root["Offsets"][:]
             types, body = root["Types"][:], root["CellData/body"][:]
+        nodes = _even(connectivity, offsets)
         cells, kinds = [], []
         for index, entry in enumerate(self.scenario.bodies):
             mine = np.flatnonzero(body == index)
-            sizes, kind = np.diff(offsets)[mine], np.unique(types[mine])
-            if len(mine) == 0 or len(kind) != 1 or len(np.unique(sizes)) != 1:
-                raise InputError(
-                    f"{self.path}: body {entry.name!r} has no mesh of one kind of cell"
-                )
-            cells.append(connectivity[offsets[mine][:, None] + np.arange(sizes[0])])
-            kinds.append(int(kind[0]))
+            if len(mine) == 0:
+                raise InputError(f"{self.path}: body {entry.name!r} has no cells")
+            cells.append(nodes[mine, : int(np.diff(offsets)[mine].max())])
+            kinds.append(types[mine].astype(np.int64))
+        # Every body may touch itself, and few do: these alone have books for it.
+        pairs = [pair["between"] for pair in self.summary["pairs"]]
+        own = {a for a, b in pairs if a == b}
         models = [
-            AuditModel(self.scenario, stage, points, cells, kinds)
+            AuditModel(self.scenario, stage, points, cells, kinds, touching_themselves=own)
             for stage in self.scenario.full_stages()
         ]
         for before, model in pairwise(models):

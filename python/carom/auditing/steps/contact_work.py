@@ -173,7 +173,7 @@ class Works:
             (-1.0, first, moved, np.abs(moved - left), by_start),
         ):
             share = 0.5 + sign * blend[found.source]
-            force = found.friction * found.normal_force
+            force = found.friction.largest * found.normal_force
             work.append(
                 ContactWork(
                     found=found,
@@ -196,6 +196,5 @@ def _turned_to(found: Contacts, normals: Array) -> Contacts:
 
 
 def _slip(found: Contacts, motion: Array) -> Array:
-    """Return how far contacts slide in a motion [m], shape [count]."""
-    slip: Array = np.linalg.norm(found.relative(motion, found.shift)[1], axis=1)
-    return slip
+    """Return how far contacts slide in a motion, by what resists it [m], shape [count]."""
+    return found.friction.slip(found.relative(motion, found.shift)[1])

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, fields, replace
 from typing import Any
 
@@ -10,8 +10,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from carom.auditing.arrays import Array, Indices, einsum
+from carom.auditing.contact.friction import Law
 from carom.auditing.contact.pairs import Side
 from carom.auditing.model import AuditModel
+from carom.auditing.steps.ellipse import Ellipse
 
 BEARS = 0.5
 """Facets bear a contact at their node that face it at least this well, relative to the best."""
@@ -50,6 +52,9 @@ class Contacts:
         By how much surfaces are pushed apart at start and end of the step [m], shape [count, 2].
     gap_error, normal_error
         What was stored less that, shape [count].
+    grain
+        Unit vectors in the tangent plane that friction depends on, zero of what is alike in all
+        directions, shape [count, D].
     side
         The pairs they belong to; None where the case has no such pair.
     """
@@ -71,6 +76,7 @@ class Contacts:
     interference: Array
     gap_error: Array
     normal_error: Array
+    grain: Array
     side: tuple[Side | None, ...]
 
     @property
@@ -104,7 +110,7 @@ class Contacts:
         """Return the same contacts where they are if chosen, and else where `others` are."""
         geometry = (
             *("site", "gap", "normal", "sources", "shares", "followed", "weights", "facet"),
-            *("gap_error", "normal_error"),
+            *("gap_error", "normal_error", "grain"),
         )
         found: dict[str, Any] = {}
         for name in geometry:
@@ -113,14 +119,25 @@ class Contacts:
         return replace(self, **found)
 
     @property
-    def friction(self) -> Array:
-        """Coulomb's coefficients, shape [count]; NaN where friction is a law."""
-        return np.array([0.0 if side is None else side.law.fixed for side in self.side])
+    def friction(self) -> Ellipse:
+        """Their cones by coefficients; these are NaN where friction is a law."""
+        return self.cone(self._by_direction(lambda law: law.fixed))
 
     @property
     def most_friction(self) -> Array:
-        """The largest that μ can be, shape [count]."""
-        return np.array([0.0 if side is None else side.law.most for side in self.side])
+        """The largest that both μ can be, shape [count, 2]."""
+        return self._by_direction(lambda law: law.most)
+
+    def cone(self, coefficients: Array) -> Ellipse:
+        """Return their cones with these coefficients, shape [count, 2]."""
+        return Ellipse(self.grain, self.normal, coefficients)
+
+    def _by_direction(self, value: Callable[[Law], float]) -> Array:
+        out = np.zeros((len(self), 2))
+        for k, side in enumerate(self.side):
+            if side is not None:
+                out[k] = [value(law) for law in side.law.directions]
+        return out
 
     @property
     def normal_force(self) -> Array:
@@ -221,10 +238,14 @@ def all_forces(parts: Sequence[Contacts], node_count: int) -> Array:
 def smallest_gaps(model: AuditModel, position: Array, time: float) -> list[float]:
     """Return for every side the smallest gap of its nodes [m].
 
-    It is the signed distance from the target less the interference.
+    It is the signed distance from the target less the interference. What touches itself is on its
+    own boundary everywhere, and has none.
     """
     gaps = []
     for side in model.sides:
+        if side.source == side.target:
+            gaps.append(np.inf)
+            continue
         if side.interference.left(time) > 0.0:
             gaps.append(_smallest_of_overlapping(model, side, position, time))
             continue
@@ -234,7 +255,7 @@ def smallest_gaps(model: AuditModel, position: Array, time: float) -> list[float
 
 
 def _smallest_of_overlapping(model: AuditModel, side: Side, position: Array, time: float) -> float:
-    """Return the same where nodes have clearances of their own."""
+    """Return the same where contacts have clearances of their own: less that of the deepest."""
     body = model.bodies[side.source]
     x = position[body.span][body.sources]
     if model.is_round(side.source, side.target):
@@ -244,8 +265,9 @@ def _smallest_of_overlapping(model: AuditModel, side: Side, position: Array, tim
     else:
         nodes = position[model.bodies[side.target].span]
         gaps = model.targets[side.target].signed_distance(x, nodes)
-    depths = model.drawn_depths(side.source, side.target)[body.sources]
-    return float((gaps - side.interference.as_state(time, depths)).min())
+    # What overlaps is taken up by no more than that of the deepest contact.
+    deepest = model.deepest(side.source, side.target)
+    return float(gaps.min() - side.interference.as_state(time, deepest))
 
 
 def _smallest_gap(model: AuditModel, side: Side, position: Array, time: float) -> float:

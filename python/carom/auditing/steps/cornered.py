@@ -6,11 +6,14 @@ import numpy as np
 
 from carom.auditing.arrays import Array
 from carom.auditing.bodies.body import AuditBody
-from carom.auditing.contact.crossings import crossings, edges
+from carom.auditing.contact.crossings import crossings, drawn_depths, edges
 from carom.auditing.contact.obstacles import Cornered
 from carom.auditing.steps.contacts import AT_CORNER, AT_EDGES
 from carom.auditing.steps.place import Place, weighted
-from carom.auditing.targets.feet import Target
+from carom.auditing.targets.feet import BEYOND, Target
+
+ON_END = 1e-9
+"""Feet this close to the end of what a facet reaches, in facets, are there."""
 
 
 def on_obstacle(shape: Cornered, shift: Array, node: int, position: Array) -> list[Place]:
@@ -24,6 +27,7 @@ def on_obstacle(shape: Cornered, shift: Array, node: int, position: Array) -> li
             gap=float(feet.gap[foot]),
             normal=feet.normal[foot],
             facet=int(feet.facet[foot]),
+            clamped=bool(feet.beyond[foot] >= BEYOND - ON_END),
             sources=[(node, 1.0)],
         )
         for foot in range(len(feet.gap))
@@ -35,12 +39,14 @@ def at_corners(
 ) -> list[Place]:
     """Return where the corners of an obstacle are on the boundary of a body, its `target`."""
     feet = target.feet(shape.corners + shift, position[body.span])
+    depths = np.maximum(-target.signed_distance(shape.corners, body.points), 0.0)
     return [
         Place(
             gap=float(feet.gap[foot]),
             normal=-feet.normal[foot],
             site=AT_CORNER,
             facet=int(feet.facet[foot]),
+            depth=float(depths[feet.point[foot]]),
             sources=[
                 (int(node) + body.span.start, float(weight))
                 for node, weight in zip(feet.nodes[foot], feet.weights[foot], strict=True)
@@ -62,11 +68,14 @@ def at_edges(
     mine = mine[(mine == node).any(axis=1)]
     places = np.concatenate([position, shape.corners + shift])
     found = crossings(places, mine, shape.edges + len(position), towards)
+    drawn = np.concatenate([body.points, shape.corners])
+    depths = drawn_depths(drawn, found, (body.span.start, len(position) - len(body.points)))
     return [
         Place(
             gap=float(found.gap[k]),
             normal=found.normal[k],
             site=AT_EDGES,
+            depth=float(depths[k]),
             sources=weighted(found.source[k], float(found.along[k, 0])),
         )
         for k in np.flatnonzero(np.isfinite(found.gap))

@@ -9,20 +9,18 @@ from typing import Any
 import numpy as np
 
 from carom.auditing.arrays import Array, Indices
-from carom.auditing.contact.crossings import crossings, edges
+from carom.auditing.contact.crossings import crossings, drawn_depths, edges
 from carom.auditing.contact.obstacles import Cornered
 from carom.auditing.contact.rounding import nearest_places
 from carom.auditing.model import AuditModel
+from carom.auditing.steps.choosing import settle
 from carom.auditing.steps.contacts import AT_EDGES, BEFORE_ROUND, Contacts
-from carom.auditing.steps.cornered import at_corners, at_edges, on_obstacle
+from carom.auditing.steps.cornered import ON_END, at_corners, at_edges, on_obstacle
 from carom.auditing.steps.place import Place, weighted
-from carom.auditing.targets.feet import CORNER, Feet, Target
+from carom.auditing.targets.feet import BEYOND, CORNER, Feet, Target
 
 SAME = 1e-7
 """Feet whose gap [model size] and normal differ by no more are equally good: at edges of facets."""
-
-BALANCED = 1e-9
-"""What is left of forces on nodes below this part of all reactions needs no other feet."""
 
 NOT_AT_NODE = 1e-5
 """Contacts whose node has no foot as near to what is stored as this are not at a node."""
@@ -67,11 +65,11 @@ class _Finder:
         sides = {(side.source, side.target): side for side in model.sides}
         between = zip(self._source.tolist(), self._target.tolist(), strict=True)
         self._sides = tuple(sides.get(key) for key in between)
-        self._interference = self._pushed_apart()
-        part = (time - step[0]) / (step[1] - step[0])
-        self._stand_off: Array = self._interference @ np.array([1.0 - part, part])
-        # Gaps are stored as the law sees them.
-        self._gap: Array = state["contact_gap"] + self._stand_off
+        self._part = (time - step[0]) / (step[1] - step[0])
+        self._resolves = [
+            side is not None and side.interference.left(step[0]) > 0.0 for side in self._sides
+        ]
+        """Where overlaps as drawn are being taken up."""
         self._normal: Array = state["contact_normal"]
         self._places = [
             Place(np.nan, np.full(model.dimension, np.nan), sources=[(int(node), 1.0)])
@@ -81,19 +79,26 @@ class _Finder:
         self._alike: dict[int, list[Place]] = {}
         """Feet of a contact that are as good as one another."""
 
-    def _pushed_apart(self) -> Array:
-        """Return the interference of contacts at both ends of the step [m], shape [count, 2]."""
-        pushed = np.zeros((len(self._node), 2))
-        for k, side in enumerate(self._sides):
-            if side is None:
-                continue
+    def _pushed_apart(self, contact: int, depth: float | None) -> Array:
+        """Return the interference at both ends of the step [m] of a contact as deep, shape [2].
+
+        Where no depth is given it is that of its node.
+        """
+        side = self._sides[contact]
+        if side is None:
+            return np.zeros(2)
+        if not self._resolves[contact]:
             depth = 0.0
-            if side.interference.left(self._step[0]) > 0.0:
-                own = int(self._node[k]) - self._model.bodies[side.source].span.start
-                depth = float(self._model.drawn_depths(side.source, side.target)[own])
-            pushed[k, 0] = side.interference.as_state(self._step[0], depth)
-            pushed[k, 1] = side.interference.at(self._step[1], depth)
-        return pushed
+        elif depth is None:
+            own = int(self._node[contact]) - self._model.bodies[side.source].span.start
+            depth = float(self._model.drawn_depths(side.source, side.target)[own])
+        h = side.interference
+        return np.array([h.as_state(self._step[0], depth), h.at(self._step[1], depth)])
+
+    def _stand_off(self, contact: int, depth: float | None) -> float:
+        """Return the same at the time that contacts are looked at [m]."""
+        start, end = self._pushed_apart(contact, depth)
+        return float((1.0 - self._part) * start + self._part * end)
 
     def found(self) -> Contacts:
         """Return the contacts."""
@@ -108,7 +113,7 @@ class _Finder:
             elif t < 0 and -1 - t < len(self._model.obstacles):
                 self._before_obstacle(int(-1 - t), at)
         if self._like is None:
-            self._settle()
+            settle(self._state, self._places, self._alike, self._other_places)
         return self._gathered()
 
     def _is_round(self, contact: int) -> bool:
@@ -138,10 +143,14 @@ class _Finder:
         found = ball.touching(normal, self._position[span], pressed)
         return [(node + span.start, weight) for node, weight in found]
 
-    def _misfit(self, contact: int, gap: Array, normal: Array) -> Array:
-        """Return how far gaps and normals, shapes [count] and [count, D], are from a stored one."""
+    def _misfit(self, contact: int, gap: Array, normal: Array, depth: float | None = None) -> Array:
+        """Return how far gaps and normals are from what is stored, in sizes of the model.
+
+        Gaps are stored as the law sees them.
+        """
         apart = np.linalg.norm(self._normal[contact] - normal, axis=-1)
-        misfit: Array = np.abs(gap - self._gap[contact]) / self._model.size + apart
+        stored = self._state["contact_gap"][contact] + self._stand_off(contact, depth)
+        misfit: Array = np.abs(gap - stored) / self._model.size + apart
         return misfit
 
     def _before_obstacle(self, number: int, at: Indices) -> None:
@@ -166,7 +175,7 @@ class _Finder:
         for contact in map(int, at):
             node = int(self._node[contact])
             places = self._fitted(contact, on_obstacle(shape, shift, node, self._position))
-            fits = min((place.misfit for place in places), default=np.inf) <= NOT_AT_NODE
+            fits = any(place.misfit <= NOT_AT_NODE and not place.clamped for place in places)
             if self._like is not None or not fits:
                 places += self._at_its_corners(number, contact)
             if self._like is not None and places:
@@ -175,6 +184,7 @@ class _Finder:
                 continue
             least = min(place.misfit for place in places)
             alike = [place for place in places if place.misfit <= least + SAME]
+            alike.sort(key=lambda place: place.clamped)
             self._places[contact] = alike[0]
             if len(alike) > 1:
                 self._alike[contact] = alike
@@ -190,12 +200,18 @@ class _Finder:
         if self._model.dimension == 3:
             node, towards = int(self._node[contact]), self._normal[contact]
             places += at_edges(shape, shift, (body, node), self._position, towards)
+        if self._like is None:
+            # What is stored of a contact names the node that takes most of it.
+            places = [place for place in places if place.named_by(int(self._node[contact]))]
         return self._fitted(contact, places)
 
     def _fitted(self, contact: int, places: list[Place]) -> list[Place]:
         """Return places with how far they are from what is stored of a contact."""
         return [
-            replace(place, misfit=float(self._misfit(contact, np.array(place.gap), place.normal)))
+            replace(
+                place,
+                misfit=float(self._misfit(contact, np.array(place.gap), place.normal, place.depth)),
+            )
             for place in places
         ]
 
@@ -213,7 +229,8 @@ class _Finder:
         """Return whether a contact may be something else than at its node."""
         if self._like is not None:
             return int(self._like.site[contact]) == site
-        return not self._places[contact].misfit <= NOT_AT_NODE
+        place = self._places[contact]
+        return place.clamped or not place.misfit <= NOT_AT_NODE
 
     def _before_round(self, number: int, contact: int) -> None:
         """Look for the facet or edge around the node that is before something round."""
@@ -226,11 +243,15 @@ class _Finder:
         known = None if self._like is None else self._like.sources[contact] - body.span.start
         shape = self._model.obstacles[number].shape
         for place in nearest_places(shape, body, own, self._position[body.span] - shift, known):
-            misfit = float(self._misfit(contact, np.array(place.gap), place.normal))
+            depth = None
+            if self._resolves[contact]:
+                drawn = nearest_places(shape, body, own, body.points, place.nodes)
+                depth = max(-min(one.gap for one in drawn), 0.0)
+            misfit = float(self._misfit(contact, np.array(place.gap), place.normal, depth))
             if misfit < self._places[contact].misfit or known is not None:
                 nodes = [(int(n) + body.span.start, w) for n, w in place.stencil]
                 self._places[contact] = Place(
-                    place.gap, place.normal, misfit, BEFORE_ROUND, sources=nodes
+                    place.gap, place.normal, misfit, BEFORE_ROUND, sources=nodes, depth=depth
                 )
 
     def _before_body(self, number: int, at: Indices) -> None:
@@ -239,6 +260,9 @@ class _Finder:
         feet = target.feet(self._position[self._node[at]], self._position[span])
         for k, contact in enumerate(at):
             mine = np.flatnonzero(feet.point == k)
+            if int(self._source[contact]) == number:
+                own = int(self._node[contact]) - span.start
+                mine = mine[~np.isin(feet.facet[mine], _around(target.facets, own))]
             if len(mine):
                 self._at_node(feet, mine, int(contact), number)
             if model.dimension == 3 and self._may_be(AT_EDGES, contact):
@@ -261,6 +285,7 @@ class _Finder:
                 normal=feet.normal[foot],
                 misfit=float(misfit.min()),
                 facet=int(feet.facet[foot]),
+                clamped=bool(feet.beyond[foot] >= BEYOND - ON_END),
                 sources=self._places[contact].sources,
                 followed=[
                     (int(node) + first, float(weight))
@@ -272,23 +297,6 @@ class _Finder:
         self._places[contact] = alike[0]
         if len(alike) > 1:
             self._alike[contact] = alike
-
-    def _settle(self) -> None:
-        """Choose among places that are alike, as on flat sides, by the stored forces on nodes."""
-        left = self._state["contact_force"].copy()
-        for contact, place in enumerate(self._places):
-            self._press(contact, place, left, -1.0)
-        total = float(np.abs(self._state["contact_reaction"]).sum())
-        # Faces that lie on one another touch with edges where nodes would do as well.
-        for with_edges in (False, True):
-            if not np.abs(left).max(initial=0.0) > BALANCED * total:
-                return
-            for contact in range(len(self._places)):
-                if with_edges:
-                    found = self._other_places(contact)
-                    self._alike.setdefault(contact, [self._places[contact]]).extend(found)
-                if contact in self._alike:
-                    self._choose(contact, left)
 
     def _other_places(self, contact: int) -> list[Place]:
         """Return where edges cross, or corners are, that fit a contact as well as its node does."""
@@ -304,27 +312,6 @@ class _Finder:
         most = self._places[contact].misfit + SAME
         return [place for place in found if place.misfit <= most]
 
-    def _choose(self, contact: int, left: Array) -> None:
-        """Choose the place of a contact that leaves least of the forces [N] on its nodes."""
-        alike = self._alike[contact]
-        self._press(contact, self._places[contact], left, 1.0)
-        nodes = {node for place in alike for node, _ in (*place.sources, *place.followed)}
-        errors = []
-        for place in alike:
-            self._press(contact, place, left, -1.0)
-            errors.append(float((left[sorted(nodes)] ** 2).sum()))
-            self._press(contact, place, left, 1.0)
-        self._places[contact] = alike[int(np.argmin(errors))]
-        self._press(contact, self._places[contact], left, -1.0)
-
-    def _press(self, contact: int, place: Place, force: Array, sign: float) -> None:
-        """Add the reaction of a contact at a place to forces on nodes [N], or take it off."""
-        reaction = sign * self._state["contact_reaction"][contact]
-        for node, weight in place.sources:
-            force[node] += weight * reaction
-        for node, weight in place.followed:
-            force[node] -= weight * reaction
-
     def _at_edges(self, number: int, contact: int) -> list[Place]:
         """Return where edges around the node cross edges of the target, all that fit best."""
         model, source = self._model, self._source[contact]
@@ -338,7 +325,16 @@ class _Finder:
             mine = self._like.sources[contact : contact + 1, :2]
             theirs = self._like.followed[contact : contact + 1, :2]
         found = crossings(self._position, mine, theirs, self._normal[contact])
+        if source == number:
+            # Edges with a node in common meet there.
+            ends = (found.source[:, :, None] == found.target[:, None]).any(axis=(1, 2))
+            found = replace(found, gap=np.where(ends, np.inf, found.gap))
+        depths: list[float | None] = [None] * len(found.gap)
         misfit = self._misfit(contact, found.gap, found.normal)
+        if self._resolves[contact]:
+            depths = drawn_depths(model.points, found, (0, 0)).tolist()
+            each = zip(found.gap, found.normal, depths, strict=True)
+            misfit = np.array([float(self._misfit(contact, *one)) for one in each])
         if not len(misfit) or not misfit.min() < np.inf:
             return []
         if self._like is None and not misfit.min() < self._places[contact].misfit + SAME:
@@ -346,7 +342,7 @@ class _Finder:
         # Edges that go on in one line cross at the same place.
         good = np.flatnonzero(misfit <= misfit.min() + SAME)
         good = good[np.argsort(found.beyond[good], kind="stable")]
-        return [
+        places = [
             Place(
                 gap=float(found.gap[k]),
                 normal=found.normal[k],
@@ -354,9 +350,12 @@ class _Finder:
                 site=AT_EDGES,
                 sources=weighted(found.source[k], found.along[k, 0]),
                 followed=weighted(found.target[k], found.along[k, 1]),
+                depth=depths[k],
             )
             for k in good
         ]
+        node = int(self._node[contact])
+        return [place for place in places if self._like is not None or place.named_by(node)]
 
     def _gathered(self) -> Contacts:
         model, count = self._model, len(self._places)
@@ -368,6 +367,9 @@ class _Finder:
                 before, after = (travel.displacement(end) for end in self._step)
                 shift[k], velocity[k] = after - before, travel.velocity(self._step[1])
         gap = np.array([place.gap for place in self._places])
+        pushed = [self._pushed_apart(k, place.depth) for k, place in enumerate(self._places)]
+        interference = np.array(pushed).reshape(count, 2)
+        stand_off = interference @ np.array([1.0 - self._part, self._part])
         normal = np.array([place.normal for place in self._places]).reshape(shift.shape)
         sources, shares = _padded([place.sources for place in self._places])
         followed, weights = _padded([place.followed for place in self._places])
@@ -377,7 +379,7 @@ class _Finder:
             source=self._source,
             target=self._target,
             reaction=self._state["contact_reaction"],
-            gap=gap - self._stand_off,
+            gap=gap - stand_off,
             normal=normal,
             sources=sources,
             shares=shares,
@@ -386,11 +388,28 @@ class _Finder:
             facet=np.array([place.facet for place in self._places], dtype=np.int64),
             shift=shift,
             velocity=velocity,
-            interference=self._interference,
-            gap_error=self._gap - gap,
+            interference=interference,
+            gap_error=self._state["contact_gap"] + stand_off - gap,
             normal_error=np.linalg.norm(self._normal - normal, axis=1),
+            grain=self._grain(),
             side=self._sides,
         )
+
+    def _grain(self) -> Array:
+        """Return the directions that friction depends on, shape [count, D]."""
+        grain = np.zeros((len(self._places), self._model.dimension))
+        for k, (side, place) in enumerate(zip(self._sides, self._places, strict=True)):
+            if side is not None and side.grain is not None:
+                stencil = (*place.sources, *place.followed)
+                grain[k] = side.grain.on(place.normal, stencil, self._position)
+        return grain
+
+
+def _around(facets: Indices, node: int) -> Indices:
+    """Return the facets around a node and those that share a node with one of these."""
+    around = np.unique(facets[(facets == node).any(axis=1)])
+    near: Indices = np.flatnonzero(np.isin(facets, around).any(axis=1))
+    return near
 
 
 def _padded(stencils: list[list[tuple[int, float]]]) -> tuple[Indices, Array]:

@@ -6,6 +6,7 @@ import numpy as np
 
 from carom.auditing.arrays import Array, Indices, cross, einsum
 from carom.auditing.bodies.body import AuditBody
+from carom.auditing.mesh.facets import corners_of
 from carom.auditing.model import AuditModel
 from carom.auditing.targets.sheet import FlatPatches, Sheet
 
@@ -24,7 +25,7 @@ def deepest_node(model: AuditModel, position: Array, time: float) -> float:
     deepest = 0.0
     for a, b in model.pairs():
         for mine, other in ((a, b), (b, a)):
-            if mine not in bodies:
+            if mine not in bodies or mine == other:
                 continue
             body, depth = bodies[mine], np.zeros(1)
             nodes = position[body.span][np.unique(body.outline)]
@@ -45,7 +46,7 @@ def _clearance(model: AuditModel, pair: tuple[str, str], time: float) -> float:
     if interference.left(time) > 0.0:
         between = [(side.source, side.target) for side in model.sides]
         sides = [key for key in between if {model.name(n) for n in key} == set(pair)]
-        most = max(float(model.drawn_depths(*key).max()) for key in sides)
+        most = max(model.deepest(*key) for key in sides)
     return max(-float(interference.at(time, most)), 0.0)
 
 
@@ -58,9 +59,9 @@ def _depths(points: Array, position: Array, body: AuditBody) -> Array:
     if len(near) and body.dimension == 2:
         depths[near] = _in_outline(points[near], outline)
     elif len(near):
-        sheet = Sheet(body.outline, FlatPatches(body.cells.kind.facet, body.outline))
+        sheet = Sheet(FlatPatches(body.outline))
         behind = np.maximum(-sheet.signed_distance(points[near], position), 0.0)
-        inside = _windings(points[near], outline[:, : body.cells.kind.facet.corner_count]) > HALF
+        inside = _windings(points[near], position[corners_of(body.outline, 3)]) > HALF
         depths[near] = np.where(inside, behind, 0.0)
     return depths
 

@@ -9,6 +9,9 @@ import numpy as np
 from carom.auditing.arrays import Array, Indices
 from carom.auditing.steps.contacts import AT_NODE
 
+ALIKE = 1e-6
+"""Shares of nodes that differ by no more are as large as one another."""
+
 
 @dataclass
 class Place:
@@ -24,6 +27,10 @@ class Place:
         What it is, and the facet of its foot.
     sources, followed
         Nodes of either side, in the numbering of the model, with their weights.
+    depth
+        How deep it was inside as drawn [m]; None where that is the depth of its node.
+    clamped
+        Whether its foot is where a facet ends that reaches beyond its edge, whatever is farther.
     """
 
     gap: float
@@ -33,6 +40,8 @@ class Place:
     facet: int = -1
     sources: list[tuple[int, float]] = field(default_factory=list)
     followed: list[tuple[int, float]] = field(default_factory=list)
+    depth: float | None = None
+    clamped: bool = False
 
     def apart(self, nodes: Indices, shares: Array) -> float:
         """Return how far its nodes of the source are from others, by their weights."""
@@ -42,6 +51,13 @@ class Place:
         for node, weight in self.sources:
             weights[node] = weights.get(node, 0.0) - weight
         return sum(abs(weight) for weight in weights.values())
+
+    def named_by(self, node: int) -> bool:
+        """Return whether a node is the one that takes most of what presses on the source."""
+        weights: dict[int, float] = {}
+        for own, weight in self.sources:
+            weights[own] = weights.get(own, 0.0) + weight
+        return weights.get(node, 0.0) >= max(weights.values()) - ALIKE
 
 
 def weighted(ends: Indices, along: float) -> list[tuple[int, float]]:

@@ -9,6 +9,7 @@ import numpy as np
 
 from carom.auditing.arrays import Array, Mask, sizes
 from carom.auditing.contact.friction import Law, Slide
+from carom.auditing.mesh.facets import node_counts
 from carom.auditing.model import AuditModel
 from carom.auditing.steps.contacts import BEARS, Contacts
 from carom.auditing.steps.ruled import Ruled
@@ -37,7 +38,7 @@ class Record:
 
 @dataclass(frozen=True)
 class Coefficients:
-    """Between what μ of each contact is, each of shape [count].
+    """Between what both μ of each contact are, each of shape [count, 2].
 
     Parameters
     ----------
@@ -58,7 +59,7 @@ class Coefficients:
     @property
     def fixed(self) -> Mask:
         """Where μ is a number, [count]."""
-        fixed: Mask = (self.doubt == 0.0) & (self.least == self.most)
+        fixed: Mask = ((self.doubt == 0.0) & (self.least == self.most)).all(axis=1)
         return fixed
 
 
@@ -88,15 +89,16 @@ class Sliding:
         """Return the coefficients in a step, which follows the one before that was asked about."""
         self.known = self.known and float(step.start["time"]) == self._time
         found = step.touching.pressed
-        out = Coefficients(*(np.zeros(len(found)) for _ in range(4)))
+        out = Coefficients(*(np.zeros((len(found), 2)) for _ in range(4)))
         for law, mine in _by_law(found):
-            if law.constant:
-                for coefficient in (out.least, out.most, out.whole):
-                    coefficient[mine] = law.fixed
-                continue
-            parts = (out.least, out.most, out.whole, out.doubt)
-            for part, values in zip(parts, self._of_law(law, step, ruled, mine), strict=True):
-                part[mine] = values
+            for direction, own in enumerate(law.directions):
+                if own.constant:
+                    for coefficient in (out.least, out.most, out.whole):
+                        coefficient[mine, direction] = own.fixed
+                    continue
+                parts = (out.least, out.most, out.whole, out.doubt)
+                for part, values in zip(parts, self._of_law(own, step, ruled, mine), strict=True):
+                    part[mine, direction] = values
         self._follow(step, ruled)
         return out
 
@@ -195,7 +197,8 @@ def _bearing(model: AuditModel, source: int, node: int, pushes: Array, position:
     facing = -body.faces(body.facets[around]).normals(position[body.span]) @ pushes
     best = facing.max()
     bears = (facing >= BEARS * best) | (best <= 0.0)
-    return float(body.facet_areas[around][bears].sum() / body.facets.shape[1])
+    shares = body.facet_areas[around] / node_counts(body.facets[around])
+    return float(shares[bears].sum())
 
 
 def _by_law(found: Contacts) -> Iterator[tuple[Law, Mask]]:

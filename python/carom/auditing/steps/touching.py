@@ -7,8 +7,6 @@ from dataclasses import replace
 from functools import cached_property
 from typing import Any
 
-import numpy as np
-
 from carom.auditing.arrays import Array, turned_with
 from carom.auditing.bodies.body import AuditBody
 from carom.auditing.steps import contacts
@@ -55,7 +53,7 @@ class Touching:
 
     @property
     def whole_force(self) -> tuple[Array, Array]:
-        """r_n and |r_t| with impulses, each part in the frame in which it acts [N], [count].
+        """r_n and r_t with impulses, each part in its own frame [N], [count] and [count, D].
 
         What impulses have of r_t is turned into the frame of the step.
         """
@@ -64,7 +62,7 @@ class Touching:
         for part in self.impulses:
             normal = normal + part.normal_force
             across = across + turned_with(part.friction_force, part.normal, pressed.normal)
-        return normal, np.linalg.norm(across, axis=1)
+        return normal, across
 
     @cached_property
     def start_gaps(self) -> Array:

@@ -2,16 +2,35 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 
-from carom.auditing.arrays import Array, Mask, einsum
-from carom.auditing.mesh.kinds import Kind
+from carom.auditing.arrays import Array, Indices, Mask, einsum
+from carom.auditing.mesh.kinds import KINDS, Kind
 from carom.auditing.targets.feet import BEYOND
 
 ON_EDGE = 1e-9
 """What is closer to an edge, in widths of the domain, is on it."""
+
+PARALLEL = 1e-14
+"""Tangents whose metric has a determinant below this part of its trace squared are parallel."""
+
+
+def solved_in_plane(metric: Array, right: Array) -> Array:
+    """Return x of A x = b with metrics A, shapes [count, 2, 2], [count, 2] and [count, 2].
+
+    At a corner where the sides of a facet go on in one line tangents are parallel: then b is along
+    the image of A, and x is the shortest of all.
+    """
+    (a, b), (_, d) = np.moveaxis(metric, 0, -1)
+    det, trace = a * d - b * b, a + d
+    parallel = det <= PARALLEL * trace**2
+    x, y = right.T
+    whole = np.stack([d * x - b * y, a * y - b * x], axis=1)
+    solved: Array = whole / np.where(parallel, 1.0, det)[:, None]
+    return np.where(parallel[:, None], right / trace[:, None], solved)
 
 
 @dataclass(frozen=True)
@@ -84,7 +103,7 @@ class Domain:
         slope, metric
             b and A, positive definite, shapes [count, 2] and [count, 2, 2].
         """
-        free: Array = np.linalg.solve(metric, slope[..., None])[..., 0].astype(np.float64)
+        free = solved_in_plane(metric, slope)
         inside = (self.inside(xi + free) >= 0.0).all(axis=1)
         best: Array = free
         least = np.where(inside, -np.inf, np.inf)
@@ -102,3 +121,58 @@ class Domain:
             best = np.where(better[:, None], s, best)
             least = np.where(better, value, least)
         return best
+
+
+TRIANGLE, SQUARE = (Domain.of(KINDS[name]) for name in ("tri3", "quad4"))
+
+
+class Domains:
+    """The domains of several patches, of which some are triangles and the others squares.
+
+    Parameters
+    ----------
+    triangular
+        Which are triangles, shape [patch_count].
+    """
+
+    def __init__(self, triangular: Mask) -> None:
+        self.triangular = triangular
+
+    def middle(self, patch: Indices) -> Array:
+        """Return the middles of the domains of patches, shape [count, 2]."""
+        own = self.triangular[patch][:, None]
+        middle: Array = np.where(own, TRIANGLE.middle, SQUARE.middle)
+        return middle
+
+    def outside(self, patch: Indices, xi: Array) -> Array:
+        """Return how far points are outside, see `Domain.outside`."""
+        return self._each(patch, lambda domain, at: domain.outside(xi[at]))
+
+    def leaves(self, patch: Indices, xi: Array, step: Array, edges: Mask) -> Mask:
+        """Return whether steps lead out across edges, [count, 4], see `Domain.leaves`."""
+
+        def of_kind(domain: Domain, at: Mask) -> Array:
+            count = len(domain.corners)
+            return domain.leaves(xi[at], step[at], edges[at, :count]).astype(np.float64)
+
+        return self._each(patch, of_kind) > 0.0
+
+    def reached(self, patch: Indices, xi: Array) -> Array:
+        """Return points brought to what reaches beyond a domain, see `Domain.reached`."""
+        return self._each(patch, lambda domain, at: domain.reached(xi[at]))
+
+    def step(self, patch: Indices, xi: Array, slope: Array, metric: Array) -> Array:
+        """Return the steps that minimise a square within a domain, see `Domain.step`."""
+        return self._each(patch, lambda domain, at: domain.step(xi[at], slope[at], metric[at]))
+
+    def _each(self, patch: Indices, of_kind: Callable[[Domain, Mask], Array]) -> Array:
+        """Return what is found for the patches of either kind, in the order of the patches."""
+        triangular = self.triangular[patch]
+        if triangular.all():
+            return of_kind(TRIANGLE, triangular)
+        if not triangular.any():
+            return of_kind(SQUARE, ~triangular)
+        first, other = of_kind(TRIANGLE, triangular), of_kind(SQUARE, ~triangular)
+        found: Array = np.empty((len(patch), *first.shape[1:]))
+        found[triangular], found[~triangular] = first, other
+        return found

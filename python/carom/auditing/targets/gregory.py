@@ -7,77 +7,108 @@ as they are. docs/theory.md has the construction.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from itertools import pairwise
 
 import numpy as np
 
 from carom.auditing.arrays import Array, Indices, Mask, einsum
-from carom.auditing.mesh.kinds import Kind
+from carom.auditing.mesh.facets import corners_of, node_counts
 from carom.auditing.targets.combination import Combination
-from carom.auditing.targets.domain import Domain
+from carom.auditing.targets.domain import SQUARE, TRIANGLE, Domain, Domains
+from carom.auditing.targets.feet import TIE
 from carom.auditing.targets.network import Network
+from carom.auditing.targets.sheet import FlatPatches, rim_edges
 from carom.auditing.targets.tangents import IN_PLANE, Plane, Tangents
+from carom.auditing.targets.tiles import cut, padded
+
+LOOSE = 0.05
+"""Patches do not quite meet at sharp edges where some are cells of second degree as they are: up to
+this part of their size their distances say nothing of which is closer."""
 
 
 class GregoryPatches:
     """The patches over the facets of a boundary.
 
-    Control points are, with n corners: the corners; then of every side the two of its curve between
-    its ends, and two inner ones.
+    Facets of second degree are cut into tiles between their nodes, each with a patch. Control
+    points are, with n corners: the corners; then of every side the two of its curve between its
+    ends, and two inner ones.
 
     Parameters
     ----------
-    kind
-        Kind of the facets: triangles or quadrilaterals of first degree.
     facets
-        Their nodes, shape [facet_count, n].
+        Facets, of one kind or several, shape [facet_count, a].
     points
         Reference positions of nodes [m], shape [node_count, 3].
     """
 
-    def __init__(self, kind: Kind, facets: Indices, points: Array) -> None:
-        self.domain, self._kind = Domain.of(kind), kind
-        network = Network(facets, points)
+    def __init__(self, facets: Indices, points: Array) -> None:
+        tiles, owner = cut(facets)
+        network = Network(tiles, points)
         tangents = Tangents(network, points)
-        corners = range(facets.shape[1])
-        flat = [
-            all(network.sector_of[facet, k].flat for k in corners) for facet in range(len(facets))
+        straight = [
+            all(network.sector_of[tile, k].flat for k in range(len(nodes)))
+            for tile, nodes in enumerate(tiles)
         ]
-        self.curved: Mask = ~np.array(flat, dtype=bool)
-        """Which facets are not as flat as they are drawn, shape [facet_count]."""
-        controls = [
-            self._controls(network, tangents, facet) if self.curved[facet] else []
-            for facet in range(len(facets))
-        ]
-        used = [
-            sorted({n for control in own for n in control.weights}) or facets[k].tolist()
-            for k, own in enumerate(controls)
-        ]
-        widest = max(map(len, used))
-        self.nodes: Indices = np.zeros((len(facets), widest), dtype=np.int64)
-        self._weights = np.zeros((len(facets), 5 * len(corners), widest))
-        """Weights of the nodes in every control point, [facet_count, control, node]."""
+        bent = {own for own, is_flat in zip(owner, straight, strict=True) if not is_flat}
+        # What is flat all over stays as its shape functions have it.
+        kept = [tile for tile, own in enumerate(owner) if own in bent]
+        whole = np.array([f for f in range(len(facets)) if f not in bent], dtype=np.int64)
+        self.curved: Mask = np.arange(len(kept) + len(whole)) < len(kept)
+        """Which patches go on into others without a kink, shape [patch_count]: they come first."""
+        controls = [self._controls(network, tangents, tile) for tile in kept]
+        used = [sorted({n for control in own for n in control.weights}) for own in controls]
+        flat = facets[whole]
+        self._flat = FlatPatches(flat)
+        widest = max([flat.shape[1] if len(flat) else 0, *map(len, used)])
+        self._weights = np.zeros((len(kept), 20, widest))
+        """Weights of the nodes in every control point, [tile, control, node]."""
         for k, (own, nodes) in enumerate(zip(controls, used, strict=True)):
-            self.nodes[k, : len(nodes)] = nodes
             for row, control in zip(self._weights[k], own, strict=False):
                 for node, weight in control.weights.items():
                     row[nodes.index(node)] = weight
+        self.nodes = padded([*used, *flat.tolist()], widest)
+        corners = [tiles[tile] for tile in kept]
+        self.facets = padded([*corners, *flat.tolist()], max(flat.shape[1], 4))
+        triangular = [len(nodes) == 3 for nodes in corners]
+        self.domains = Domains(np.append(np.array(triangular, bool), self._flat.triangular))
+        # A sharp edge is a cubic on one side and the parabola of a cell on the other.
+        self.tie = LOOSE if kept and (node_counts(flat) > 4).any() else TIE
+        rims = rim_edges(padded(tiles, 4))[kept]
+        self.rim = np.concatenate(
+            [rims, rim_edges(padded(corners_of(facets, 3).tolist(), 4))[whole]]
+        )
 
     def values(self, patch: Indices, xi: Array) -> Array:
         """Return the weights of the nodes at ξ, shape [count, node]."""
-        shares, _ = shape_functions(self.domain, xi)
-        values = einsum("kc,kcn->kn", shares, self._weights[patch])
+        values = np.zeros((len(patch), self.nodes.shape[1]))
+        for mine, own, shares, _ in self._shares(patch, xi):
+            values[mine] = einsum("kc,kcn->kn", shares, self._weights[own][:, : shares.shape[1]])
         flat = ~self.curved[patch]
-        values[flat, : len(self._kind.nodes)] = self._kind.values(xi[flat])
+        if flat.any():
+            found = self._flat.values(patch[flat] - len(self._weights), xi[flat])
+            values[flat, : found.shape[1]] = found
         return values
 
     def slopes(self, patch: Indices, xi: Array) -> Array:
         """Return their derivatives by ξ, shape [count, node, 2]."""
-        _, shares = shape_functions(self.domain, xi)
-        slopes = einsum("kca,kcn->kna", shares, self._weights[patch])
+        slopes = np.zeros((len(patch), self.nodes.shape[1], 2))
+        for mine, own, _, shares in self._shares(patch, xi):
+            weights = self._weights[own][:, : shares.shape[1]]
+            slopes[mine] = einsum("kca,kcn->kna", shares, weights)
         flat = ~self.curved[patch]
-        slopes[flat, : len(self._kind.nodes)] = self._kind.slopes(xi[flat])
+        if flat.any():
+            found = self._flat.slopes(patch[flat] - len(self._weights), xi[flat])
+            slopes[flat, : found.shape[1]] = found
         return slopes
+
+    def _shares(self, patch: Indices, xi: Array) -> Iterator[tuple[Mask, Indices, Array, Array]]:
+        """Yield curved patches of either kind: which they are, and the shares of controls."""
+        triangular = self.domains.triangular[patch]
+        for domain, chosen in ((TRIANGLE, triangular), (SQUARE, ~triangular)):
+            mine = chosen & self.curved[patch]
+            if mine.any():
+                yield mine, patch[mine], *shape_functions(domain, xi[mine])
 
     def _controls(self, network: Network, tangents: Tangents, facet: int) -> list[Combination]:
         nodes = network.facets[facet]

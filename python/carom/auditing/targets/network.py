@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections import defaultdict
+from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import combinations
 
 import numpy as np
 
-from carom.auditing.arrays import Array, Indices, cross
+from carom.auditing.arrays import Array, cross
 from carom.auditing.targets.feet import CORNER, FLAT
 
 Corner = tuple[int, int]
@@ -46,19 +47,15 @@ class Network:
     Parameters
     ----------
     facets
-        Triangles or quadrilaterals, outward by the right-hand rule, shape [facet_count, corner].
+        The corners of triangles and quadrilaterals, outward by the right-hand rule.
     points
         Reference positions of nodes [m], shape [node_count, 3].
     """
 
-    def __init__(self, facets: Indices, points: Array) -> None:
-        self.facets, self._points = facets.tolist(), points
-        self._count = facets.shape[1]
-        ends = points[facets]
-        ahead = np.roll(ends, -1, axis=1) - ends
-        behind = np.roll(ends, 1, axis=1) - ends
-        self._areas = cross(ahead, behind)
-        """Twice the area of the triangle at every corner, outward, shape [facet, corner, 3]."""
+    def __init__(self, facets: Sequence[list[int]], points: Array) -> None:
+        self.facets, self._points = list(facets), points
+        self._areas = [_areas(points[nodes]) for nodes in self.facets]
+        """Twice the area of the triangle at every corner, outward, shape [corner, 3]."""
         self.beyond: dict[Corner, Corner] = self._neighbours()
         """The side across each side that is not sharp."""
         self.sharp = self._sharp_edges()
@@ -66,7 +63,7 @@ class Network:
         self.sector_of: dict[Corner, Sector] = {}
         self.sectors: list[Sector] = []
         for facet in range(len(self.facets)):
-            for corner in range(self._count):
+            for corner in range(len(self.facets[facet])):
                 if (facet, corner) not in self.sector_of:
                     self._add_sector((facet, corner))
 
@@ -74,7 +71,7 @@ class Network:
         """Return the nodes that the sides from a corner and to it lead to."""
         facet, k = corner
         nodes = self.facets[facet]
-        return nodes[(k + 1) % self._count], nodes[k - 1]
+        return nodes[(k + 1) % len(nodes)], nodes[k - 1]
 
     def around(self, sector: Sector, *, widened: bool) -> list[int]:
         """Return the other nodes of the facets of a sector, or also of facets around these.
@@ -84,7 +81,7 @@ class Network:
         found = {n for facet, _ in sector.corners for n in self.facets[facet]}
         if widened:
             for facet, _ in sector.corners:
-                for k in range(self._count):
+                for k in range(len(self.facets[facet])):
                     for other, _ in self.sector_of[facet, k].corners:
                         found.update(self.facets[other])
         return sorted(found - {sector.node})
@@ -102,7 +99,7 @@ class Network:
         sides: dict[tuple[int, int], list[tuple[Corner, int]]] = defaultdict(list)
         for facet, nodes in enumerate(self.facets):
             for k, start in enumerate(nodes):
-                end = nodes[(k + 1) % self._count]
+                end = nodes[(k + 1) % len(nodes)]
                 sides[min(start, end), max(start, end)].append(((facet, k), start))
         found = {}
         for both in sides.values():
@@ -116,15 +113,15 @@ class Network:
 
     def _side_normal(self, side: Corner) -> Array:
         facet, k = side
-        whole = self._areas[facet, k] + self._areas[facet, (k + 1) % self._count]
-        return _unit(whole)
+        areas = self._areas[facet]
+        return _unit(areas[k] + areas[(k + 1) % len(areas)])
 
     def _sharp_edges(self) -> dict[int, dict[int, tuple[int, bool] | None]]:
         ends: dict[int, set[int]] = defaultdict(set)
         for facet, nodes in enumerate(self.facets):
             for k, start in enumerate(nodes):
                 if (facet, k) not in self.beyond:
-                    end = nodes[(k + 1) % self._count]
+                    end = nodes[(k + 1) % len(nodes)]
                     ends[start].add(end)
                     ends[end].add(start)
         found: dict[int, dict[int, tuple[int, bool] | None]] = {}
@@ -151,7 +148,7 @@ class Network:
             corners.append(after)
         node = self.facets[start[0]][start[1]]
         bounds = None if closed else (self.sides(first)[0], self.sides(corners[-1])[1])
-        normals = np.array([_unit(self._areas[facet, k]) for facet, k in corners])
+        normals = np.array([_unit(self._areas[facet][k]) for facet, k in corners])
         flat = bool((normals @ normals[0] > FLAT).all())
         for to in bounds or ():
             passage = self.sharp.get(node, {}).get(to)
@@ -163,11 +160,16 @@ class Network:
     def _after(self, corner: Corner) -> Corner | None:
         """Return the next corner around the node, across the side that ends there."""
         facet, k = corner
-        return self.beyond.get((facet, (k - 1) % self._count))
+        return self.beyond.get((facet, (k - 1) % len(self.facets[facet])))
 
     def _before(self, corner: Corner) -> Corner | None:
         side = self.beyond.get(corner)
-        return None if side is None else (side[0], (side[1] + 1) % self._count)
+        return None if side is None else (side[0], (side[1] + 1) % len(self.facets[side[0]]))
+
+
+def _areas(ends: Array) -> Array:
+    """Return twice the areas of the triangles at the corners of a facet [m²], [corner, 3]."""
+    return cross(np.roll(ends, -1, axis=0) - ends, np.roll(ends, 1, axis=0) - ends)
 
 
 def _unit(vector: Array) -> Array:

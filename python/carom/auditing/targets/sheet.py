@@ -7,15 +7,20 @@ from typing import Protocol
 import numpy as np
 
 from carom.auditing.arrays import Array, Indices, Mask, cross, einsum
-from carom.auditing.mesh.kinds import Kind
-from carom.auditing.targets.domain import Domain
+from carom.auditing.mesh.facets import corners_of, node_counts
+from carom.auditing.mesh.kinds import kind_with
+from carom.auditing.targets.domain import Domains, solved_in_plane
 from carom.auditing.targets.feet import TIE, Feet
+from carom.auditing.targets.tiles import padded
 
 STEPS = 60
 """Most steps to a closest point; they converge at a rate of distance over radius."""
 
 CLOSE = 1e-14
 """Changes of ξ below this end the search."""
+
+SQUARE = 0.99
+"""The least cosine of the angle at which a point sees a patch whose closest point is within it."""
 
 AT_ONCE = 4_000_000
 """Most pairs of points and facets whose distances are known at a time."""
@@ -25,12 +30,24 @@ class Patches(Protocol):
     """Pieces of surface, each a combination of nodes for every ξ of a domain."""
 
     @property
+    def facets(self) -> Indices:
+        """What they are over, outward by the right-hand rule, shape [patch_count, a]."""
+
+    @property
     def nodes(self) -> Indices:
         """The nodes that every patch follows, shape [patch_count, n]."""
 
     @property
-    def domain(self) -> Domain:
+    def domains(self) -> Domains:
         """Where ξ is."""
+
+    @property
+    def rim(self) -> Mask:
+        """Where an open surface ends: which edges are of no other, shape [patch_count, 4]."""
+
+    @property
+    def tie(self) -> float:
+        """Distances closer than this part of a patch are the same."""
 
     @property
     def curved(self) -> Mask:
@@ -48,26 +65,37 @@ class FlatPatches:
 
     Parameters
     ----------
-    kind
-        Their kind.
-    nodes
-        Their nodes, shape [facet_count, a].
+    facets
+        Their nodes, of one kind or several, shape [facet_count, a].
     """
 
-    def __init__(self, kind: Kind, nodes: Indices) -> None:
-        self.nodes, self._kind = nodes, kind
-        self.domain = Domain.of(kind)
-        self.curved: Mask = np.zeros(len(nodes), dtype=bool)
+    def __init__(self, facets: Indices) -> None:
+        self.facets = self.nodes = facets
+        counts = node_counts(facets)
+        self._kinds = {int(count): kind_with(2, int(count)) for count in np.unique(counts)}
+        self._counts = counts
+        self.triangular: Mask = np.isin(counts, (3, 6))
+        """Which of them are triangles, shape [facet_count]."""
+        self.domains = Domains(self.triangular)
+        self.rim = rim_edges(padded(corners_of(facets, 3).tolist(), 4))
+        self.tie = TIE
+        self.curved: Mask = np.zeros(len(facets), dtype=bool)
 
     def values(self, patch: Indices, xi: Array) -> Array:
         """Return N_a at ξ, shape [count, a]."""
-        del patch
-        return self._kind.values(xi)
+        values = np.zeros((len(patch), self.nodes.shape[1]))
+        for count, kind in self._kinds.items():
+            mine = self._counts[patch] == count
+            values[mine, :count] = kind.values(xi[mine])
+        return values
 
     def slopes(self, patch: Indices, xi: Array) -> Array:
         """Return ∂N_a/∂ξ, shape [count, a, 2]."""
-        del patch
-        return self._kind.slopes(xi)
+        slopes = np.zeros((len(patch), self.nodes.shape[1], 2))
+        for count, kind in self._kinds.items():
+            mine = self._counts[patch] == count
+            slopes[mine, :count] = kind.slopes(xi[mine])
+        return slopes
 
 
 class Sheet:
@@ -75,17 +103,14 @@ class Sheet:
 
     Parameters
     ----------
-    facets
-        Facets in the body's numbering, outward by the right-hand rule, shape [facet_count, a].
     patches
-        The pieces of surface over them, one for each.
+        The pieces of surface that it is made of, in the body's numbering of nodes.
     """
 
-    def __init__(self, facets: Indices, patches: Patches) -> None:
-        self.facets, self._patches = facets, patches
+    def __init__(self, patches: Patches) -> None:
+        self.facets, self._patches = patches.facets, patches
         self.smooth = patches.curved
         self.width = patches.nodes.shape[1]
-        self._rim = _rims(facets[:, : len(patches.domain.corners)])
 
     def feet(self, x: Array, position: Array) -> Feet:
         """Return all feet near the points, see `Target`."""
@@ -95,7 +120,7 @@ class Sheet:
         nodes = self._patches.nodes[patch]
         offset = x[point] - einsum("kn,kni->ki", value, position[nodes])
         # Where ξ is at an edge there may be a way to go on.
-        further = self._patches.domain.reached(xi + _along(tangents, offset)) - xi
+        further = self._patches.domains.reached(patch, xi + _along(tangents, offset)) - xi
         weights = value + einsum("kna,ka->kn", self._patches.slopes(patch, xi), further)
         normal = _unit(cross(tangents[:, 0], tangents[:, 1]))
         left = x[point] - einsum("kn,kni->ki", weights, position[nodes])
@@ -106,7 +131,7 @@ class Sheet:
             normal=normal,
             nodes=nodes,
             weights=weights,
-            beyond=self._patches.domain.outside(xi + further),
+            beyond=self._patches.domains.outside(patch, xi + further),
         )
 
     def closest_weights(self, x: Array, position: Array) -> Array:
@@ -128,13 +153,18 @@ class Sheet:
         closest = np.full(len(x), np.inf)
         np.minimum.at(closest, point, distance)
         tied = distance <= closest[point] + TIE * size
-        squarely = np.where(tied, np.abs(front), -1.0)
+        # What is closest within a patch is what the point is before, or behind.
+        within = np.zeros(len(x), dtype=bool)
+        within[point[tied & (np.abs(front) >= SQUARE * distance)]] = True
+        loosely = distance <= closest[point] + self._patches.tie * size
+        squarely = np.where(tied | (loosely & ~within[point]), np.abs(front), -1.0)
         order = np.lexsort((squarely, point))
         last = order[np.append(point[order][1:] != point[order][:-1], True)]
         signed: Array = np.full(len(x), np.inf)
         signed[point[last]] = np.copysign(closest[point[last]], front[last])
         further = _along(tangents[last], offset[last])
-        off = self._patches.domain.leaves(xi[last], further, self._rim[patch[last]])
+        own = patch[last]
+        off = self._patches.domains.leaves(own, xi[last], further, self._patches.rim[own])
         signed[point[last][off]] = np.inf
         return signed
 
@@ -166,8 +196,8 @@ class Sheet:
         Steps go to where the tangent plane at the last one is closest, within the domain, and are
         shortened until the distance falls.
         """
-        domain, nodes = self._patches.domain, position[self._patches.nodes[patch]]
-        xi: Array = np.broadcast_to(domain.middle, (len(x), 2)).copy()
+        domains, nodes = self._patches.domains, position[self._patches.nodes[patch]]
+        xi = domains.middle(patch)
         moving = np.arange(len(x))
 
         def off(at: Array, some: Indices) -> Array:
@@ -182,7 +212,7 @@ class Sheet:
             tangents = einsum("kna,kni->kai", slopes, nodes[moving])
             offset = off(at, moving)
             metric = einsum("kai,kbi->kab", tangents, tangents)
-            step = domain.step(at, einsum("kai,ki->ka", tangents, offset), metric)
+            step = domains.step(patch[moving], at, einsum("kai,ki->ka", tangents, offset), metric)
             before = einsum("ki,ki->k", offset, offset)
             for _ in range(30):
                 after = (off(at + step, moving) ** 2).sum(axis=1)
@@ -199,7 +229,7 @@ def _along(tangents: Array, offset: Array) -> Array:
     """Return how far along tangents their plane is closest to offsets, shape [count, 2]."""
     metric = einsum("kai,kbi->kab", tangents, tangents)
     slope = einsum("kai,ki->ka", tangents, offset)
-    return np.asarray(np.linalg.solve(metric, slope[..., None])[..., 0], dtype=np.float64)
+    return solved_in_plane(metric, slope)
 
 
 def _unit(vectors: Array) -> Array:
@@ -207,8 +237,11 @@ def _unit(vectors: Array) -> Array:
     return unit
 
 
-def _rims(corners: Indices) -> Mask:
-    """Return which edges of facets are of one facet only, shape [facet_count, edge]."""
+def rim_edges(corners: Indices) -> Mask:
+    """Return which edges of facets are of one facet only, shape [facet_count, edge].
+
+    Of facets with fewer corners than others the last ones are none.
+    """
     ends = np.sort(np.stack([corners, np.roll(corners, -1, axis=1)], axis=2), axis=2)
     _, inverse, count = np.unique(
         ends.reshape(-1, 2), axis=0, return_inverse=True, return_counts=True

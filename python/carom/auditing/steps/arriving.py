@@ -1,0 +1,78 @@
+"""Contacts that come to their target with the end of a step: they land in the next one."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from carom.auditing.arrays import Array, Mask, turned
+from carom.auditing.bodies.body import AuditBody
+from carom.auditing.model import AuditModel
+from carom.auditing.steps.scales import Scales
+from carom.auditing.steps.step import Step
+
+LANDED = 1e-8
+"""A contact that was open has landed once it has taken more than this part of the impulse that it
+would take to stop what is in its way."""
+
+
+def arriving(step: Step, scales: Scales) -> tuple[Mask, Mask]:
+    """Return which contacts of a step surely only arrive, and which perhaps do, shape [count].
+
+    With impulses of landing a contact that was open at the start by g would take m b g, b of
+    v₊ = a v + b d. What took next to nothing of that presses in the next step, where it is counted.
+    """
+    found, model = step.touching.pressed, step.model
+    none = np.zeros(len(found), dtype=bool)
+    if model.static or not (model.condition == "midpoint" or model.mixed):
+        return none, none
+    ruled, gap, off = ~found.massless, step.touching.start_gaps, scales.geometry(step)
+    whole = LANDED * _masses(step) / (model.theta * step.dt)
+    impulse = step.dt * found.normal_force
+    doubt = step.dt * scales.least_reaction(step.dt)
+    perhaps = ruled & (gap > -off) & (impulse <= whole * np.maximum(gap + off, 0.0) + doubt)
+    surely = ruled & (gap > off) & (impulse <= whole * (gap - off) - doubt)
+    # A reaction that is round-off is one beside a gap, too.
+    return surely, perhaps | (ruled & (np.abs(impulse) <= doubt) & (gap > off))
+
+
+def _masses(step: Step) -> Array:
+    """Return the masses in the way of contacts [kg], if every node moved alone, shape [count]."""
+    found, model = step.touching.pressed, step.model
+    mobility = np.zeros(len(model.points))
+    for body in model.bodies:
+        mobility[body.span] = _mobility(step, body)
+    # Nodes may be in a stencil twice; images are what their masters are.
+    yields = np.zeros(len(found))
+    for nodes, weights in ((found.sources, found.shares), (found.followed, found.weights)):
+        yields += (weights**2 * mobility[nodes]).sum(axis=1)
+    return 1.0 / np.where(yields > 0.0, yields, np.inf)
+
+
+def _mobility(step: Step, body: AuditBody) -> Array:
+    """Return by how much an impulse on each node alone moves it [1/kg], shape [node_count]."""
+    if not body.rigid:
+        mass = body.folded(body.mass.nodal)[body.masters]
+        return np.where(mass > 0.0, 1.0 / np.where(mass > 0.0, mass, 1.0), 0.0)
+    # In the mean over the directions, as drawn.
+    guiding, arms = step.rigid(body).guiding, body.arms(0.0 * body.points)
+    mobility = np.full(len(arms), float((~guiding.along).sum()) / body.mass.total)
+    about = np.flatnonzero(~guiding.about)
+    if len(about):
+        inertia = body.inertia(0.0 * body.points)
+        inverse = np.linalg.inv(inertia[np.ix_(about, about)])
+        axes = np.eye(len(inertia))[about]
+        fields = np.stack([turned(arms, axis) for axis in axes])
+        mobility += np.einsum("ani,ab,bni->n", fields, inverse, fields)
+    return mobility / body.dimension
+
+
+def most_uncounted(model: AuditModel, scales: Scales, dt: float) -> float:
+    """Return how much all reactions after a step of this length [s] may be if none is counted [N].
+
+    A node closes no wider gap in a step than what two of the fastest nodes do.
+    """
+    most = scales.least_reaction(dt)
+    if not model.static and (model.condition == "midpoint" or model.mixed):
+        heavy = sum(b.mass.total * (len(b.sources) if b.rigid else 1) for b in model.bodies)
+        most += LANDED * heavy * 4.0 * scales.speed / (model.theta * dt)
+    return most
