@@ -165,9 +165,9 @@ class Contact(Description):
         How deep bodies and obstacles that may touch may be inside one another, or bodies inside
         themselves, at the end of a step. It is relative to the diameter of the facet that is there.
         ``endpoint``, which stops what arrives and may see too late what others push, is allowed
-        the farthest motion of a node in a step besides, up to half that diameter. So are the arcs that the facets of a round side
-        stand for, and how far a round obstacle bulges into a facet no larger than its radius. A run
-        that goes deeper is not completed.
+        the farthest motion of a node in a step besides, up to half that diameter. So are the arcs
+        that the facets of a round side stand for, and how far a round obstacle bulges into a facet
+        no larger than its radius. A run that goes deeper is not completed.
     resolve_overlap
         Whether bodies may overlap one another, or obstacles, at the start of a static analysis. The
         overlap of every contact is then clearance at first, which falls linearly to zero: meshes

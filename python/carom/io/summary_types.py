@@ -40,7 +40,7 @@ class CertificateSummary(TypedDict):
 
 
 class Crushed(TypedDict):
-    """Cells of a body that were compressed to less than half their volume, the worst to ``least``."""
+    """Cells of a body that were compressed to less than half, the worst to ``least``."""
 
     body: str
     cells: int

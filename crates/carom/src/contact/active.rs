@@ -1,10 +1,8 @@
 //! Which contacts take part in a step, and the reactions known of them.
 
-use carom_contact::{Candidate, Contact, Mortar, Pair, Target};
+use carom_contact::{Candidate, Contact, Mortar, Pair, Search, Site, Target};
 use carom_mesh::{Matrix, Vector};
 
-use super::arriving::goes_on_pressing;
-use super::candidates::Finder;
 use super::control::CONTROL;
 use super::pressing::Pressing;
 use super::slider::{Slider, slider_of};
@@ -71,8 +69,15 @@ impl<const D: usize> ActiveSet<D> {
     /// would create energy. In a static analysis it is pushed out: there bodies may be meant to be pressed into one another. So is in its first
     /// step whatever is inside: nothing has come there.
     ///
-    /// Bodies become no faster than by `fall` [m/s] in free flight.
-    pub fn select(&mut self, given: &Given<'_, D>, finder: &Finder<D>, at_rest: &AtRest, fall: f64) {
+    /// Those that are `needed` take part although they are open: the last attempt at the step let them arrive. Bodies become no faster than by `fall`
+    /// [m/s] in free flight.
+    pub fn select(
+        &mut self,
+        given: &Given<'_, D>,
+        (search, needed): (&Search<D>, &[(u32, Site)]),
+        at_rest: &AtRest,
+        fall: f64,
+    ) {
         let Given { assembly, method, state, interval } = *given;
         let (contact, map) = (&assembly.contact, &interval.map);
         let start = |n: u32| given.position(n);
@@ -100,12 +105,12 @@ impl<const D: usize> ActiveSet<D> {
             let gap = at_start.gap - interference[0];
             let is_beyond = || {
                 let inside = inside(c);
-                at_start.gap < -inside && contact.is_beyond(c, at_start, inside, &start, &finder.search)
+                at_start.gap < -inside && contact.is_beyond(c, at_start, inside, &start, search)
             };
             let closed = closed(c);
             let is_stopped = || {
                 let known = state.reaction(c.key());
-                finder.needs(c.key()) || goes_on_pressing(given, known, at_start, gap, fall)
+                needed.contains(&c.key()) || goes_on_pressing(given, known, at_start, gap, fall)
             };
             let is_active = || method.condition.is_active(gap, closed, is_stopped);
             let takes_part = || !c.redundant && is_active() && !is_beyond();
@@ -353,4 +358,17 @@ fn touch(touched: &mut [bool], pair: &Pair) {
     if let Target::Surface(target) = pair.target {
         touched[target] = true;
     }
+}
+
+/// Whether a contact that pressed in the last step, was `at_start` with this `gap` [m] and becomes no faster than by `fall` [m/s] in free flight would
+/// have to be stopped again.
+fn goes_on_pressing<const D: usize>(
+    given: &Given<'_, D>,
+    known: Option<&Reaction<D>>,
+    at_start: &Contact<D>,
+    gap: f64,
+    fall: f64,
+) -> bool {
+    let closing = || (-at_start.relative(|n| given.state.velocity[n])[0]).max(0.0) + fall;
+    known.is_some_and(|r| r.force[0] > 0.0) && gap < CONTROL.stopping * closing() * given.interval.map.dt
 }

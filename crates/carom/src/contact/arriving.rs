@@ -1,15 +1,12 @@
 //! What comes so near to its target that it has to be stopped now, where velocities are ruled.
 
-use carom_contact::{Candidate, Contact, Site};
+use carom_contact::{Candidate, Site};
 use carom_mesh::Vector;
 
 use super::active::ActiveSet;
 use super::candidates::Finder;
 use crate::model::given::Given;
-use crate::model::state::{Reaction, State};
-
-/// The way that a contact goes in steps that it flies through and in the one that stops it, in steps at the velocity that it flies with.
-const WAY: f64 = 1.5;
+use crate::model::state::State;
 
 impl<const D: usize> Finder<D> {
     /// Whether the step, which ended at `next` after this `motion`, let a contact come so near that the next one could not keep it out. If so, it takes
@@ -51,17 +48,4 @@ impl<const D: usize> Finder<D> {
         }
         needed.len() > known
     }
-}
-
-/// Whether a contact that pressed in the last step, was `at_start` with this `gap` [m] and falls no faster than by `fall` [m/s] in a step would have to be
-/// stopped again.
-pub(super) fn goes_on_pressing<const D: usize>(
-    given: &Given<'_, D>,
-    known: Option<&Reaction<D>>,
-    at_start: &Contact<D>,
-    gap: f64,
-    fall: f64,
-) -> bool {
-    let closing = || (-at_start.relative(|n| given.state.velocity[n])[0]).max(0.0) + fall;
-    known.is_some_and(|r| r.force[0] > 0.0) && gap < WAY * closing() * given.interval.map.dt
 }

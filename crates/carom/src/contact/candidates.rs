@@ -129,9 +129,9 @@ impl<const D: usize> Finder<D> {
         missed_one || needed.len() > known
     }
 
-    /// Whether a candidate has to take part, as the last attempt at the step has shown.
-    pub fn needs(&self, key: (u32, Site)) -> bool {
-        self.needed.contains(&key)
+    /// Those that have to take part, as the last attempt at the step has shown.
+    pub fn needed(&self) -> &[(u32, Site)] {
+        &self.needed
     }
 
     /// Takes note that the step has come to nothing.

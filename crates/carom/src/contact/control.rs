@@ -12,6 +12,9 @@ pub(super) struct Control {
     /// A contact that pressed in the last step is closed up to this gap, in sizes of the smaller body: that far do iterations that end above
     /// round-off let it open.
     pub closed: f64,
+    /// Where velocities are ruled, what pressed goes on to press while it is so near to its target, in the ways of a step: one that it flies and the half that it
+    /// takes to stop.
+    pub stopping: f64,
     /// Contact nodes of a body up to which every pair of them has its block. Beyond these, a node has blocks with those that are
     /// [near](crate::body::Body::near): what W lacks costs iterations, not accuracy.
     pub few: usize,
@@ -70,6 +73,7 @@ pub(super) const CONTROL: Control = Control {
     unresponsive: 1e-6,
     inside: 1e-6,
     closed: 1e-9,
+    stopping: 1.5,
     few: 100,
     rigid: 1e-6,
     held_compliance: [1.0, 1e-3],

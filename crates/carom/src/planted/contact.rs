@@ -153,7 +153,7 @@ impl<const D: usize> PlantedContact<D> {
         let given = setting.given();
         let nothing = AtRest::default();
         finder.find(&given, &nothing, motion, (*margin, *repetition), active);
-        active.select(&given, finder, &nothing, 0.0);
+        active.select(&given, (&finder.search, finder.needed()), &nothing, 0.0);
         (self.evaluations, self.problem.q) = (0, Vec::new());
     }
 

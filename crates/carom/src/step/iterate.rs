@@ -9,6 +9,7 @@ use super::newton::acceleration::Last;
 use super::newton::control::CONTROL;
 use super::newton::convergence::Convergence;
 use super::workspace::Workspace;
+use crate::contact::Contacts;
 use crate::error::StepError;
 use crate::model::each_body::{PerBody, try_each_body};
 use crate::model::given::Given;
@@ -30,7 +31,8 @@ pub(super) fn iterate<const D: usize>(
     let Workspace { contacts, newton, motion, resting, forecasts, .. } = work;
     let acceleration = forecasts.iter().map(|forecast| forecast.acceleration).fold(0.0, f64::max);
     let fall = acceleration * given.interval.map.dt;
-    contacts.active.select(given, &contacts.finder, &resting.who, fall);
+    let Contacts { active, finder, .. } = contacts;
+    active.select(given, (&finder.search, finder.needed()), &resting.who, fall);
     contacts.on_masses.begin(given);
     if !given.interval.map.is_static() {
         // The guess that softened contacts would go back to may be of other contacts, where the step is repeated.
