@@ -222,6 +222,8 @@ class ContactModel:
     def missed(self, points: ArrayLike) -> Candidates | None:
         """Find what went through its target unforeseen in a step that has converged.
 
+        With the condition ``endpoint`` it is what arrives and has to be stopped in this step.
+
         Parameters
         ----------
         points

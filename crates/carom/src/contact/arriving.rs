@@ -13,7 +13,8 @@ impl<const D: usize> Finder<D> {
     /// part from now on.
     ///
     /// What is stopped goes on in that step: with v₊ = a v + b d by (a + e) v/b, at θ = ½ and without restitution by half of its way. So it
-    /// stops before it arrives, and never goes in. Rows of mortar pairs, which cannot be recalled, do that once they have arrived.
+    /// stops before it arrives, and never goes in. Rows of mortar pairs, which cannot be recalled, do that once they have arrived, and so
+    /// do contacts of pairs that hold together where they touch.
     pub fn lets_arrive(
         &mut self,
         given: &Given<'_, D>,
@@ -39,6 +40,9 @@ impl<const D: usize> Finder<D> {
             let [before, after] = given.interference(candidate.key());
             let closing = contact.relative(velocity)[0] - (after - before) / map.dt;
             let pair = assembly.contact.pairs.get(candidate.pair as usize);
+            if assembly.cohesions.of(&pair).is_some() {
+                continue;
+            }
             let restitution = assembly.restitutions.of(&pair).unwrap_or(0.0);
             let goes_on =
                 (map.velocity_of_velocity + restitution) * closing.min(0.0) / map.velocity_of_motion;

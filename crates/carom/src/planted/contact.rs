@@ -230,16 +230,19 @@ impl<const D: usize> PlantedContact<D> {
         Err(StepError::Friction { contacts, report: Box::new(report) })
     }
 
-    /// Whether something that the search did not find has gone through its target where the caller's points end up `at` [m]. If so it is searched from
-    /// now on, and the step is to be made again.
+    /// Whether something that the search did not find has gone through its target where the caller's points end up `at` [m] or, with the condition
+    /// `endpoint`, arrives there. If so it is among the contacts from now on, and the step is to be made again.
     ///
     /// # Errors
     /// If that has happened too often.
     pub fn missed(&mut self, at: &[Vector<D>]) -> Result<bool, StepError> {
         self.move_to(at);
-        let Self { setting, finder, next, .. } = self;
+        let Self { setting, finder, next, motion, active, repetition, .. } = self;
         let given = setting.given();
-        if !finder.missed_one(&given, &AtRest::default(), next) {
+        let arrives = !given.method.condition.rules_the_end() && *repetition + 1 < SEARCH.repetitions;
+        if !finder.missed_one(&given, &AtRest::default(), next)
+            && !(arrives && finder.lets_arrive(&given, motion, active, next))
+        {
             return Ok(false);
         }
         self.repetition += 1;
