@@ -240,9 +240,9 @@ impl<const D: usize> PlantedContact<D> {
         let Self { setting, finder, next, motion, active, repetition, .. } = self;
         let given = setting.given();
         let arrives = !given.method.condition.rules_the_end() && *repetition + 1 < SEARCH.repetitions;
-        if !finder.missed_one(&given, &AtRest::default(), next)
-            && !(arrives && finder.lets_arrive(&given, motion, active, next))
-        {
+        let missed = finder.missed_one(&given, &AtRest::default(), next)
+            || arrives && finder.lets_arrive(&given, motion, active, next);
+        if !missed {
             return Ok(false);
         }
         self.repetition += 1;
