@@ -73,7 +73,7 @@ In a dynamic analysis with the scheme `conserving`; a static one has `gap`.
 | `massless`, the default | kept to round-off | nothing is inside | quiet | half as much again |
 | `midpoint` | kept to round-off | nodes on their targets | chatters | least |
 | `gap` | impacts take some, less on finer meshes | nothing is inside | chatters | as `midpoint` |
-| `endpoint` | nodes that stop lose theirs | nothing is inside | quiet | `midpoint`, and more in heaps |
+| `endpoint` | nodes that stop lose theirs | nothing is inside | quiet | `midpoint`; more in heaps |
 
 With `massless` a body keeps its mass where it touches if it is rigid or reduced, has no cells
 inside, yields plastically, grows, has a friction law, or carries springs or masses there. Where
