@@ -36,6 +36,7 @@ mod resting;
 mod rigid_bodies;
 mod scales;
 mod self_contact;
+mod shared_bodies;
 mod space;
 mod sphere_impact;
 mod stages;
