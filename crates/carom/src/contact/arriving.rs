@@ -15,7 +15,7 @@ impl<const D: usize> Finder<D> {
     /// What is stopped goes on in that step: with v₊ = a v + b d by (a + e) v/b, at θ = ½ and without restitution by half of its way. So it
     /// stops before it arrives, and never goes in. Rows of mortar pairs, which cannot be recalled, do that once they have arrived, and so
     /// do contacts of pairs that hold together where they touch.
-    pub fn lets_arrive(
+    pub(super) fn lets_arrive(
         &mut self,
         given: &Given<'_, D>,
         motion: &[Vector<D>],

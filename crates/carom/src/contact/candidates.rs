@@ -19,7 +19,7 @@ pub(crate) struct Finder<const D: usize> {
     pub asleep: Vec<bool>,
     /// All that the search found, ascending.
     pub found: Vec<Candidate>,
-    /// Those of the step that say what no other does, as the measure has shown.
+    /// Those of the step that say what no other does, as the measure has shown, or that arrive, where velocities are ruled.
     pub(super) needed: Vec<(u32, Site)>,
     /// Whether the last step has looked at its end for what it did not find.
     has_looked: bool,
@@ -91,10 +91,18 @@ impl<const D: usize> Finder<D> {
     /// Whether a node that the search did not find, or that another stood for, has gone through its target by the end of the step. If so, what was
     /// missed is searched from now on.
     ///
-    /// Only where the condition is written there: the others choose their contacts at the start.
-    pub fn missed_one(&mut self, given: &Given<'_, D>, at_rest: &AtRest, next: &State<D>) -> bool {
+    /// Where the condition is not written there, it is what [arrives](Self::lets_arrive) beside the `active` ones after this `motion`, as long as the step
+    /// `may_be_repeated`.
+    pub fn missed_one(
+        &mut self,
+        given: &Given<'_, D>,
+        at_rest: &AtRest,
+        (motion, next): (&[Vector<D>], &State<D>),
+        active: &ActiveSet<D>,
+        may_be_repeated: bool,
+    ) -> bool {
         if !given.method.condition.rules_the_end() {
-            return false;
+            return may_be_repeated && self.lets_arrive(given, motion, active, next);
         }
         self.has_looked = true;
         if at_rest.is_everything() {

@@ -67,8 +67,8 @@ impl<const D: usize> Method<D> {
     }
 
     /// How deep solids may be in one another [m] where the smaller facet has the diameter `cell` [m]. Nodes of one side go behind the
-    /// facets of the other by the `arcs` [m] that these stand for. Conditions that rule motions and not gaps let nodes in once by a
-    /// step's `travel` [m]. More than half a cell is a way through.
+    /// facets of the other by the `arcs` [m] that these stand for. Where velocities are ruled, what others push may arrive
+    /// too late to be stopped, by a step's `travel` [m]. More than half a cell is a way through.
     pub(crate) fn allowed_penetration(&self, cell: f64, arcs: f64, travel: f64) -> f64 {
         let let_in = if self.condition.rules_the_end() { 0.0 } else { travel.min(0.5 * cell) };
         self.penetration_tolerance * cell + arcs + let_in

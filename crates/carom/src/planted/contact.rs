@@ -239,10 +239,8 @@ impl<const D: usize> PlantedContact<D> {
         self.move_to(at);
         let Self { setting, finder, next, motion, active, repetition, .. } = self;
         let given = setting.given();
-        let arrives = !given.method.condition.rules_the_end() && *repetition + 1 < SEARCH.repetitions;
-        let missed = finder.missed_one(&given, &AtRest::default(), next)
-            || arrives && finder.lets_arrive(&given, motion, active, next);
-        if !missed {
+        let may_be_repeated = *repetition + 1 < SEARCH.repetitions;
+        if !finder.missed_one(&given, &AtRest::default(), (motion, next), active, may_be_repeated) {
             return Ok(false);
         }
         self.repetition += 1;

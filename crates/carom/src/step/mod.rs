@@ -143,12 +143,8 @@ fn looked_at<const D: usize>(
 ) -> Result<Option<PenetrationReport>, StepError> {
     let Workspace { contacts, motion, resting, .. } = work;
     let Contacts { finder, active, .. } = contacts;
-    let rules_the_end = given.method.condition.rules_the_end();
-    if finder.missed_one(given, &resting.who, next)
-        || !rules_the_end
-            && repetition + 1 < SEARCH.repetitions
-            && finder.lets_arrive(given, motion, active, next)
-    {
+    let may_be_repeated = repetition + 1 < SEARCH.repetitions;
+    if finder.missed_one(given, &resting.who, (motion, next), active, may_be_repeated) {
         return Ok(None);
     }
     let penetration = measure(given, next, work)?;
