@@ -38,6 +38,7 @@ pub struct Body<const D: usize> {
     is_viscous: bool,
     mass: NodalMatrix<f64>,
     nodal_mass: Vec<f64>,
+    nodal_inertia: Vec<f64>,
     massless_stiffness: Vec<f64>,
     massless_mass: Vec<f64>,
     total_mass: f64,
@@ -98,7 +99,10 @@ impl<const D: usize> Body<D> {
             Ok(())
         })?;
         let mut nodal_mass = mass.row_sums();
-        ranks.iter().for_each(|ranks| ranks.sum(&mut nodal_mass));
+        let mut nodal_inertia = mass.row_sizes();
+        for sums in [&mut nodal_mass, &mut nodal_inertia] {
+            ranks.iter().for_each(|ranks| ranks.sum(sums));
+        }
         let (own_cells, cells_in_order) = match &ranks {
             None => (Vec::new(), cells_in_order),
             Some(_) => (cells_in_order, numbers_in_order(&mesh, depth, spec)?),
@@ -126,6 +130,7 @@ impl<const D: usize> Body<D> {
             massless_mass,
             massless_contact: spec.massless_contact,
             nodal_mass,
+            nodal_inertia,
             is_objective: objective,
             turns,
             frame_arms: Vec::new(),
@@ -232,6 +237,13 @@ impl<const D: usize> Body<D> {
     #[must_use]
     pub fn nodal_mass(&self) -> &[f64] {
         &self.nodal_mass
+    }
+
+    /// The mass [kg] by which every node resists what moves it alone: the sum of its row without signs. That of a corner of second order is
+    /// negative with them.
+    #[must_use]
+    pub fn nodal_inertia(&self) -> &[f64] {
+        &self.nodal_inertia
     }
 
     /// Mass [kg].
@@ -533,9 +545,8 @@ fn mass_matrix<const D: usize>(
     if !spec.massless_contact {
         return Ok((with_points(mass, points), Vec::new()));
     }
-    // Row sums of corners of second order are negative.
-    let size = |n: usize| graph.row(n).map(|(entry, _)| mass.values[entry].abs()).sum::<f64>();
-    let mut moved: Vec<f64> = surface.nodes().iter().map(|&n| size(n as usize)).collect();
+    let sizes = mass.row_sizes();
+    let mut moved: Vec<f64> = surface.nodes().iter().map(|&n| sizes[n as usize]).collect();
     ranks.iter().for_each(|ranks| ranks.sum(&mut moved));
     let followers = followers(mesh, whole, surface)?;
     Ok((redistributed(&with_points(mass, points), surface.nodes(), &followers), moved))

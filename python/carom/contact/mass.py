@@ -53,8 +53,8 @@ class Mass:
         surfaces: Sequence[Surface],
     ) -> None:
         self._dofs, self._count = dofs, dof_count
-        self._product, self._solve = self._actions(mass)
-        rows = np.append(numbers("mass", self._product(np.ones(dof_count))), 0.0)
+        self._product, self._solve, sizes = self._actions(mass)
+        rows = np.append(numbers("mass", sizes), 0.0)
         free = dofs >= 0
         counted = np.maximum(free.sum(axis=1), 1)
         self.of_nodes: Array = np.where(free, rows[dofs], 0.0).sum(axis=1) / counted
@@ -64,8 +64,8 @@ class Mass:
         for nodes in self._nodes:
             if (wrong := nodes[~(self.of_nodes[nodes] > 0.0)]).size:
                 raise InputError(
-                    f"mass: the row of node {wrong[0]} sums to {self.of_nodes[wrong[0]]:g} kg; "
-                    "must be greater than 0, so give what touches a mass, lumped if need be",
+                    f"mass: node {wrong[0]} has {self.of_nodes[wrong[0]]:g} kg; must be greater "
+                    "than 0, so give what touches a mass, lumped if need be",
                     "mass",
                 )
         self._answers: dict[int, Array] = {}
@@ -97,19 +97,29 @@ class Mass:
         self._answers.clear()
         return change
 
-    def _actions(self, mass: Any) -> tuple[Action, Action]:  # noqa: ANN401 (as above)
-        """Return what multiplies with M, and what solves with it."""
+    def _actions(self, mass: Any) -> tuple[Action, Action, Array]:  # noqa: ANN401 (as above)
+        """Return what multiplies with M, what solves with it, and how each unknown resists alone.
+
+        That is the sum of its row without signs, since rows of corners of second order sum to less
+        than 0; of an operator, whose rows nobody sees, the sum.
+        """
         if is_operator(mass):
             times = mass.matvec if isinstance(mass, LinearOperator) else mass
-            return lambda vector: self._shaped(times(vector)), self._by_gradients
+
+            def product(vector: Array) -> Array:
+                return self._shaped(times(vector))
+
+            return product, self._by_gradients, product(np.ones(self._count))
         if sp.issparse(mass) or np.ndim(mass) == 2:
             matrix = sp.csc_array(mass, dtype=np.float64)
             self._refuse_shape(matrix.shape, (self._count, self._count))
             factor = splu(matrix)
-            return lambda vector: np.asarray(matrix @ vector), factor.solve
+            own, rows = matrix.diagonal(), np.asarray(abs(matrix).sum(axis=1)).ravel()
+            sizes = np.where(own > 0.0, rows, own)
+            return lambda vector: np.asarray(matrix @ vector), factor.solve, sizes
         diagonal = numbers("mass", mass)
         self._refuse_shape(diagonal.shape, (self._count,))
-        return lambda vector: diagonal * vector, lambda momentum: momentum / diagonal
+        return lambda vector: diagonal * vector, lambda momentum: momentum / diagonal, diagonal
 
     def _by_gradients(self, momentum: Array) -> Array:
         """Solve by conjugate gradients: masses are well conditioned."""

@@ -185,13 +185,24 @@ def contact_data():
     return carom.Contact(condition="gap").model_dump(mode="json")
 
 
+def test_a_row_of_a_mass_that_sums_to_less_than_zero_is_one_of_second_order():
+    # The rows of corners of a consistent mass of second order do.
+    mass = np.eye(8)
+    mass[:4, 4:] = mass[4:, :4] = -1.1 * np.eye(4)
+    mass[4:, 4:] = 2.0 * np.eye(4)
+    assert mass.sum(axis=1).min() < 0.0
+    assert stepped(model(mass=mass, condition="midpoint"), velocity=np.zeros((4, 2)))
+
+
 def test_masses_that_are_none():
     with refuses("mass has shape [7]; must be [8], one row for each unknown"):
         model(mass=np.ones(7))
     with refuses("mass has shape [8, 7]; must be [8, 8], one row for each unknown"):
         model(mass=np.ones((8, 7)))
-    with refuses("mass: the row of node 0 sums to -1 kg; must be greater than 0, so give what"):
+    with refuses("mass: node 0 has -1 kg; must be greater than 0, so give what"):
         model(mass=-np.ones(8))
+    with refuses("mass: node 0 has -1 kg; must be greater than 0, so give what touches a mass"):
+        model(mass=-np.eye(8))
     with refuses("velocity and mass go together: give the model a mass, and accept the velocity"):
         stepped(model(), velocity=-np.ones((4, 2)))
     with refuses("velocity and mass go together: give the model a mass, and accept the velocity"):

@@ -71,4 +71,11 @@ impl NodalMatrix<f64> {
     pub fn row_sums(&self) -> Vec<f64> {
         (0..self.graph.node_count()).map(|n| self.graph.row(n).map(|(e, _)| self.values[e]).sum()).collect()
     }
+
+    /// The sum of every row without signs.
+    #[must_use]
+    pub fn row_sizes(&self) -> Vec<f64> {
+        let size = |n: usize| self.graph.row(n).map(|(e, _)| self.values[e].abs()).sum();
+        (0..self.graph.node_count()).map(size).collect()
+    }
 }

@@ -369,7 +369,7 @@ pub trait Body<const D: usize>: Send + Sync {
         false
     }
 
-    /// The mass that belongs to a node [kg].
+    /// The mass by which a node resists what moves it alone [kg], greater than 0.
     fn mass_of(&self, node: u32) -> f64;
 
     /// What an `impulse` [N s] makes of the velocities: writes Δv = M⁻¹ p [m/s] to `change`, zero where displacements are held, and where they

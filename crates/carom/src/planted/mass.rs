@@ -8,7 +8,7 @@ use crate::model::assembly::Assembly;
 
 /// The mass of the caller's bodies, by the caller's numbers of nodes. It couples no two surfaces.
 pub trait ForeignMass<const D: usize> {
-    /// The mass of a node [kg]: the sum of its row.
+    /// The mass by which a node resists what moves it alone [kg], greater than 0: the sum of its row without signs.
     fn of_node(&self, node: u32) -> f64;
 
     /// Writes Δv = M⁻¹ p [m/s] of these `nodes` of a surface for the impulses p [N s] on them; nothing changes where motion is prescribed.

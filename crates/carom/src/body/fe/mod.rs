@@ -35,11 +35,11 @@ use crate::scheme::{StepMap, StressRule};
 /// goes. What this leaves out costs iterations, not accuracy.
 const RINGS: usize = 3;
 
-/// The mass that moves with every node [kg]: of tied nodes that of all.
-fn mass_of_tied_nodes<const D: usize>(body: &carom_fem::Body<D>) -> Vec<f64> {
-    let mut mass = body.nodal_mass().to_vec();
+/// The mass by which every node resists what moves it alone [kg]: of tied nodes that of all.
+fn inertia_of_tied_nodes<const D: usize>(body: &carom_fem::Body<D>) -> Vec<f64> {
+    let mut mass = body.nodal_inertia().to_vec();
     let ties = body.mesh().ties();
-    ties.iter().for_each(|t| mass[t.master as usize] += body.nodal_mass()[t.image as usize]);
+    ties.iter().for_each(|t| mass[t.master as usize] += body.nodal_inertia()[t.image as usize]);
     ties.iter().for_each(|t| mass[t.image as usize] = mass[t.master as usize]);
     mass
 }
@@ -54,8 +54,8 @@ pub(crate) struct FeBody<const D: usize> {
     blended: BlendedForces<D>,
     vibration: Vibration<D>,
     mass_solver: MassSolver<D>,
-    /// The mass that moves with every node, those tied to it included [kg].
-    nodal_mass: Vec<f64>,
+    /// The mass by which every node resists, those tied to it included [kg].
+    nodal_inertia: Vec<f64>,
     /// The configuration half way through the step.
     middle: Vec<Vector<D>>,
     /// How stiff nodes are [N/m]; empty until somebody asks.
@@ -80,7 +80,7 @@ impl<const D: usize> FeBody<D> {
             blended: BlendedForces::default(),
             vibration: Vibration::default(),
             mass_solver: MassSolver::default(),
-            nodal_mass: mass_of_tied_nodes(&part.body),
+            nodal_inertia: inertia_of_tied_nodes(&part.body),
             node_stiffness: Vec::new(),
             residual: held,
             middle: zeros.clone(),
@@ -457,7 +457,7 @@ impl<const D: usize> Body<D> for FeBody<D> {
     }
 
     fn mass_of(&self, node: u32) -> f64 {
-        self.nodal_mass[node as usize]
+        self.nodal_inertia[node as usize]
     }
 
     fn jolt(

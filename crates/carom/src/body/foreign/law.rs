@@ -58,6 +58,14 @@ impl<const D: usize> ForeignLaw<D> {
         sums
     }
 
+    /// The mass by which every node of a body of so many resists what moves it alone [kg]: the sum of its row without signs.
+    pub(crate) fn nodal_inertia(&self, nodes: usize) -> Vec<f64> {
+        let mut sums = vec![0.0; nodes];
+        let size = |block: &Matrix<D>| block.trace().abs() / D as f64;
+        self.mass.iter().for_each(|(a, _, block)| sums[*a as usize] += size(block));
+        sums
+    }
+
     /// M times a nodal vector.
     fn times_mass(&self, v: &[Vector<D>]) -> Vec<Vector<D>> {
         let mut out = vec![Vector::zeros(); v.len()];

@@ -29,6 +29,7 @@ pub struct ForeignBody<const D: usize> {
     mass: NodalMatrix<Matrix<D>>,
     /// Sum of every row of the mass, in the mean of the directions [kg].
     nodal_mass: Vec<f64>,
+    nodal_inertia: Vec<f64>,
     mass_inverse: Inverse<D>,
     gravity: Vector<D>,
     /// The force of gravity on its nodes [N].
@@ -59,7 +60,7 @@ impl<const D: usize> ForeignBody<D> {
         let mut free_mass = mass.clone();
         held.uncouple(&mut free_mass);
         mass_inverse.make_exact(false, &free_mass)?;
-        let nodal_mass = law.nodal_mass(count);
+        let (nodal_mass, nodal_inertia) = (law.nodal_mass(count), law.nodal_inertia(count));
         let zeros = vec![Vector::zeros(); count];
         let mut weight = zeros.clone();
         mass.multiply(&vec![gravity; count], &mut weight);
@@ -72,6 +73,7 @@ impl<const D: usize> ForeignBody<D> {
             mass_blocks,
             mass,
             nodal_mass,
+            nodal_inertia,
             mass_inverse,
             inverse: Inverse::new(&[]),
             made_for: None,
@@ -239,7 +241,7 @@ impl<const D: usize> Body<D> for ForeignBody<D> {
     }
 
     fn mass_of(&self, node: u32) -> f64 {
-        self.nodal_mass[node as usize]
+        self.nodal_inertia[node as usize]
     }
 
     fn jolt(
