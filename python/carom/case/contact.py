@@ -164,10 +164,10 @@ class Contact(Description):
     penetration_tolerance
         How deep bodies and obstacles that may touch may be inside one another, or bodies inside
         themselves, at the end of a step. It is relative to the diameter of the facet that is there.
-        ``endpoint``, which stops what arrives and may see too late what others push, is allowed
-        the farthest motion of a node in a step besides, up to half that diameter. So are the arcs
-        that the facets of a round side stand for, and how far a round obstacle bulges into a facet
-        no larger than its radius. A run that goes deeper is not completed.
+        ``endpoint`` lets in what starts too near to be stopped: what is inside after the first step
+        of a stage is allowed, up to half that diameter. So are the arcs that the facets of a round
+        side stand for, and how far a round obstacle bulges into a facet no larger than its radius.
+        A run that goes deeper is not completed.
     resolve_overlap
         Whether bodies may overlap one another, or obstacles, at the start of a static analysis. The
         overlap of every contact is then clearance at first, which falls linearly to zero: meshes

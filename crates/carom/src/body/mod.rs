@@ -27,6 +27,8 @@ pub struct Interval {
     pub start: f64,
     /// See `start`.
     pub end: f64,
+    /// Length of the whole step that it is a part of [s]: the next one may be as long.
+    pub whole: f64,
     /// Whether time only says how far loads have come: what is prescribed has no velocity.
     pub is_load_step: bool,
     /// The numbers that factors are kept in.

@@ -123,7 +123,7 @@ fn totals(archive: &mut Archive<'_>, t: &mut Totals) -> Done {
 }
 
 fn penetration(archive: &mut Archive<'_>, t: &mut Totals) -> Done {
-    archive.numbers("totals/penetration", [&mut t.max_travel, &mut t.max_penetration])?;
+    archive.numbers("totals/penetration", [&mut t.let_in, &mut t.max_penetration])?;
     // Without depth there is none.
     let nowhere = Inside { between: [Solid::Body(0); 2], depth: 0.0, cell: 0.0, arcs: 0.0, at: [0.0; 3] };
     let nothing = Worst { inside: nowhere, allowed: 0.0, time: 0.0, crushed: None };

@@ -69,8 +69,8 @@ impl<const D: usize> ActiveSet<D> {
     /// would create energy. In a static analysis it is pushed out: there bodies may be meant to be pressed into one another. So is in its first
     /// step whatever is inside: nothing has come there.
     ///
-    /// Those that are `needed` take part although they are open: the last attempt at the step let them arrive. Bodies become no faster than by `fall`
-    /// [m/s] in free flight.
+    /// Those that are `needed`, ascending, take part although they are open: the last attempt at the step let them arrive. Bodies become no
+    /// faster than by `fall` [m/s] in free flight.
     pub fn select(
         &mut self,
         given: &Given<'_, D>,
@@ -110,7 +110,7 @@ impl<const D: usize> ActiveSet<D> {
             let closed = closed(c);
             let is_stopped = || {
                 let known = state.reaction(c.key());
-                needed.contains(&c.key()) || goes_on_pressing(given, known, at_start, gap, fall)
+                needed.binary_search(&c.key()).is_ok() || goes_on_pressing(given, known, at_start, gap, fall)
             };
             let is_active = || method.condition.is_active(gap, closed, is_stopped);
             let takes_part = || !c.redundant && is_active() && !is_beyond();

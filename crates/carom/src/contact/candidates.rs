@@ -19,7 +19,7 @@ pub(crate) struct Finder<const D: usize> {
     pub asleep: Vec<bool>,
     /// All that the search found, ascending.
     pub found: Vec<Candidate>,
-    /// Those of the step that say what no other does, as the measure has shown, or that arrive, where velocities are ruled.
+    /// Those of the step that say what no other does, as the measure has shown, or that arrive, where velocities are ruled; ascending.
     pub(super) needed: Vec<(u32, Site)>,
     /// Whether the last step has looked at its end for what it did not find.
     has_looked: bool,
@@ -92,7 +92,7 @@ impl<const D: usize> Finder<D> {
     /// missed is searched from now on.
     ///
     /// Where the condition is not written there, it is what [arrives](Self::lets_arrive) beside the `active` ones after this `motion`, as long as the step
-    /// `may_be_repeated`.
+    /// `may_be_repeated`, and it is looked for on the way that the next step would go.
     pub fn missed_one(
         &mut self,
         given: &Given<'_, D>,
@@ -101,18 +101,29 @@ impl<const D: usize> Finder<D> {
         active: &ActiveSet<D>,
         may_be_repeated: bool,
     ) -> bool {
-        if !given.method.condition.rules_the_end() {
-            return may_be_repeated && self.lets_arrive(given, motion, active, next);
+        let rules_the_end = given.method.condition.rules_the_end();
+        if !rules_the_end && !may_be_repeated {
+            return false;
         }
-        self.has_looked = true;
+        // What velocities rule may be inside and stay there for a while.
+        self.has_looked = rules_the_end;
         if at_rest.is_everything() {
             return false;
         }
-        let assembly = given.assembly;
+        let Given { assembly, state, interval, .. } = *given;
         let end = |n: u32| assembly.reference[n as usize] + next.displacement[n as usize];
+        let goes_on = |n: u32| {
+            let velocity = interval.map.end_velocity(&state.velocity[n as usize], &motion[n as usize]);
+            end(n) + velocity * interval.whole
+        };
         // What is closed counts whatever the sign of round-off: an edge that goes on keeps others from being found at its end.
         let closed = CONTROL.closed * assembly.size;
-        let at_end = Path::resting(&end, assembly.reach(given.interval.end) + closed);
+        let margin = assembly.reach(interval.end) + closed;
+        let at_end = if rules_the_end {
+            Path::resting(&end, margin)
+        } else {
+            Path { start: &end, end: &goes_on, margin }
+        };
         let Self { search, asleep, found, needed, missed, missed_mortar, missed_contacts, .. } = self;
         let contact = &assembly.contact;
         let counts = |pair: &Pair| !is_asleep(asleep, pair) && !at_rest.are_still(pair);
@@ -124,17 +135,19 @@ impl<const D: usize> Finder<D> {
         let missed_one = gaps.into_iter().any(|gap| gap < -assembly.round_off());
         let known = needed.len();
         // In load steps both would rule a turn that nothing resists: coarse fits of round parts did not converge.
-        let is_static = given.interval.map.is_static();
+        let is_static = interval.map.is_static();
         let parted = found.iter().filter(|c| {
             let touching = given.interference(c.key())[1] - closed;
             !is_static && c.redundant && contact.has_parted(c, touching, &end, found)
         });
         needed.extend(parted.map(Candidate::key));
-        if missed_one {
+        needed.sort_unstable();
+        if missed_one || !rules_the_end {
             found.extend_from_slice(missed);
             found.sort_unstable();
         }
-        missed_one || needed.len() > known
+        let rouses = missed_one || needed.len() > known;
+        if rules_the_end { rouses } else { self.lets_arrive(given, motion, active, next) }
     }
 
     /// Those that have to take part, as the last attempt at the step has shown.
@@ -161,7 +174,7 @@ impl<const D: usize> Finder<D> {
     /// Whether candidates that nobody had found would have kept out what the measure of the step has found inside. If so, they are searched
     /// from now on.
     pub fn missed_by(&mut self, given: &Given<'_, D>, next: &State<D>, witnesses: &[Witness]) -> bool {
-        if witnesses.is_empty() || !given.method.condition.rules_the_end() {
+        if witnesses.is_empty() {
             return false;
         }
         let assembly = given.assembly;
@@ -187,6 +200,7 @@ impl<const D: usize> Finder<D> {
             return false;
         }
         needed.extend(missed.iter().map(Candidate::key));
+        needed.sort_unstable();
         missed.retain(|m| found.binary_search_by_key(&m.key(), Candidate::key).is_err());
         found.extend_from_slice(missed);
         found.sort_unstable();

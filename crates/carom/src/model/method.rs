@@ -60,6 +60,7 @@ impl<const D: usize> Method<D> {
             map,
             start,
             end,
+            whole: dt,
             is_load_step: self.scheme == Scheme::Static,
             precision: self.precision(),
             is_blended: self.is_blended(),
@@ -67,10 +68,10 @@ impl<const D: usize> Method<D> {
     }
 
     /// How deep solids may be in one another [m] where the smaller facet has the diameter `cell` [m]. Nodes of one side go behind the
-    /// facets of the other by the `arcs` [m] that these stand for. Where velocities are ruled, what others push may arrive
-    /// too late to be stopped, by a step's `travel` [m]. More than half a cell is a way through.
-    pub(crate) fn allowed_penetration(&self, cell: f64, arcs: f64, travel: f64) -> f64 {
-        let let_in = if self.condition.rules_the_end() { 0.0 } else { travel.min(0.5 * cell) };
+    /// facets of the other by the `arcs` [m] that these stand for. Where velocities are ruled, what starts too near to be stopped is
+    /// `let_in` [m]. More than half a cell is a way through.
+    pub(crate) fn allowed_penetration(&self, cell: f64, arcs: f64, let_in: f64) -> f64 {
+        let let_in = if self.condition.rules_the_end() { 0.0 } else { let_in.min(0.5 * cell) };
         self.penetration_tolerance * cell + arcs + let_in
     }
 

@@ -95,7 +95,7 @@ impl<const D: usize> Stepper<'_, D> {
         let Self { model, method, state, spare, work, .. } = self;
         let assembly = &model.assembly;
         let mut interval = method.interval(state.time, length);
-        interval.map = interval.map.part_of(whole);
+        (interval.map, interval.whole) = (interval.map.part_of(whole), whole);
         let report =
             among_threads(model.node_count(), || step_over(assembly, method, &interval, state, spare, work))?;
         let may_wait = length < LONG * whole;

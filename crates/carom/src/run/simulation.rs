@@ -421,7 +421,7 @@ impl<const D: usize> Simulation<D> {
             report.cross_check.iter().for_each(|check| cross_checks.note(check, state.time));
             previous_time = state.time;
             totals.note(report, &state.energies, books, initial);
-            totals.note_penetration(report, state, model, method);
+            totals.note_penetration(report, state, model, method, account.steps == 0);
         });
         let failed = stepper.failed;
         account.retried += failed;

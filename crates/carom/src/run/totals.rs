@@ -28,8 +28,8 @@ pub(crate) struct Totals {
     pub repaid: f64,
     pub least_friction: f64,
     pub min_gap: f64,
-    /// Largest motion of a node in a step [m].
-    pub max_travel: f64,
+    /// How deep solids were in one another after first steps of stages [m], as far as something moved: what starts too near to be stopped.
+    pub let_in: f64,
     /// Largest depth of solids in one another at the end of a step [m].
     pub max_penetration: f64,
     /// The free motion of a load step that was driven most, and left undone.
@@ -76,7 +76,7 @@ impl Totals {
             repaid: 0.0,
             least_friction: 0.0,
             min_gap: f64::INFINITY,
-            max_travel: 0.0,
+            let_in: 0.0,
             max_penetration: 0.0,
             free_motion: None,
             worst_penetration: None,
@@ -105,7 +105,6 @@ impl Totals {
         self.repaid += report.repaid;
         self.least_friction = self.least_friction.min(report.least_friction);
         self.min_gap = self.min_gap.min(report.min_gap);
-        self.max_travel = self.max_travel.max(report.travel);
         self.max_penetration = self.max_penetration.max(report.penetration.depth);
         let driving = |motion: Option<FreeMotion>| motion.map_or(0.0, |motion| motion.driving);
         if driving(report.free_motion) > driving(self.free_motion) {
@@ -113,16 +112,20 @@ impl Totals {
         }
     }
 
-    /// Takes note of how deep solids were in one another in a `state`, by what the `method` allows.
+    /// Takes note of how deep solids were in one another in a `state`, by what the `method` allows, where it may be that a stage `sets_out`.
     pub fn note_penetration<const D: usize>(
         &mut self,
         report: &StepReport,
         state: &State<D>,
         model: &Model<D>,
         method: &Method<D>,
+        sets_out: bool,
     ) {
+        if sets_out {
+            self.let_in = self.let_in.max(report.penetration.depth.min(report.travel));
+        }
         let Some(inside) = report.penetration.worst else { return };
-        let allowed = method.allowed_penetration(inside.cell, inside.arcs, self.max_travel);
+        let allowed = method.allowed_penetration(inside.cell, inside.arcs, self.let_in);
         let mut worst = Worst { inside, allowed, time: state.time, crushed: None };
         if self.worst_penetration.is_none_or(|known| worst.excess() > known.excess()) {
             if worst.excess() > 1.0 {

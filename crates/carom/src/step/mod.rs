@@ -115,7 +115,7 @@ pub(crate) fn step_over<const D: usize>(
             let Workspace { bodies, contacts, resting, .. } = work;
             resting.note(&given, next, bodies, &contacts.finder.found);
             let cross_check = cross_check(&given, &work.contacts);
-            let travel = nodal::largest(&work.motion[..assembly.node_count()]);
+            let travel = nodal::largest(&work.motion);
             return Ok(StepReport { penetration, travel, cross_check, ..report });
         }
     }

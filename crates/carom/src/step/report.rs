@@ -92,7 +92,7 @@ pub struct StepReport {
     pub min_gap: f64,
     /// How deep solids are inside one another at its end.
     pub penetration: PenetrationReport,
-    /// Largest motion of a node in the step [m].
+    /// Largest motion of a node or an obstacle in the step [m].
     pub travel: f64,
     /// Sum of the normal reactions [N].
     pub normal_force: f64,
