@@ -97,7 +97,7 @@ BAD = [
     (mesh(**BLOCK, cell="quad7"), "", 'there is no cell "quad7"'),
     # analysis and contact
     ({"analysis.time_step": 0}, "analysis.time_step", "0: the time step must be greater than 0 s"),
-    ({"analysis.time_step": 1e-15}, "analysis.time_step", "0.000000000000001: the run would have"),
+    ({"analysis.time_step": 1e-15}, "analysis.time_step", "1e-15: the run would have"),
     ({"analysis.time_step": 2}, "analysis.end_time", "1: the end time must be at least one time"),
     (
         {"analysis.start_time": -1.0},

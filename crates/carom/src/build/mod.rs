@@ -154,7 +154,7 @@ pub(crate) fn built<const D: usize>(scenario: &Scenario, inputs: Inputs<D>) -> R
     model.assembly.bearing = friction_law::bearing(scenario, &model)?;
     model.assembly.orthotropies = orthotropy::orthotropies(scenario, &model)?;
     if scenario.analysis.starts_from_nothing() {
-        overlaps::check_overlaps(scenario, &model)?;
+        overlaps::check_overlaps(scenario, &model, &method)?;
     }
     let motions = velocity::rigid_motions(scenario, &model)?;
     Ok(Built { model, method, motions })

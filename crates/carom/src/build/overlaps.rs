@@ -7,15 +7,18 @@ use crate::error::InputError;
 use crate::model::Model;
 use crate::model::assembly::Assembly;
 use crate::model::interference::Interference;
+use crate::model::method::Method;
 use crate::scenario::{AnalysisKind, Scenario};
 
 /// Overlaps at the start deeper than this, relative to the smallest edge, are an error.
 pub(super) const TOUCHING: f64 = 1e-9;
 
-/// Refuses bodies that overlap one another or an obstacle before anything has moved by more than the interference of their pair lets them.
+/// Refuses bodies that overlap one another or an obstacle before anything has moved by more than the interference of their pair lets them, and
+/// themselves by more than a run by this `method` may have them.
 pub(super) fn check_overlaps<const D: usize>(
     scenario: &Scenario,
     model: &Model<D>,
+    method: &Method<D>,
 ) -> Result<(), InputError> {
     let at = |n: u32| model.assembly.reference[n as usize];
     let is_other = |pair: &Pair| pair.target != Target::Surface(pair.source);
@@ -87,7 +90,8 @@ pub(super) fn check_overlaps<const D: usize>(
         }
     }
     check_corners(scenario, model)?;
-    check_crossings(scenario, model)
+    check_crossings(scenario, model)?;
+    check_selves(model, method)
 }
 
 /// What else may be done about an overlap.
@@ -212,6 +216,27 @@ fn check_crossings<const D: usize>(scenario: &Scenario, model: &Model<D>) -> Res
         ));
     }
     Ok(())
+}
+
+/// Refuses meshes that lie over themselves.
+fn check_selves<const D: usize>(model: &Model<D>, method: &Method<D>) -> Result<(), InputError> {
+    let Assembly { boundaries, contact, reference, .. } = &model.assembly;
+    let at = |n: u32| reference[n as usize];
+    let mut refused = None;
+    boundaries.clone().measure(&contact.obstacles, |[a, b]| a == b, &at, |found| {
+        let Penetration { depth, cell, arcs, between: [Solid::Body(i), _], at } = found else { return };
+        if depth > method.allowed_penetration(cell, arcs, 0.0) {
+            refused.get_or_insert_with(|| {
+                let (name, place) = (&model.bodies[i].name, place(&at));
+                let message = format!(
+                    "the mesh of {name:?} lies over itself: near {place} it is {depth:.3e} m inside itself; join what is \
+                     one there by common nodes, or make bodies of its parts"
+                );
+                InputError::new(format!("bodies.{i}.mesh"), message)
+            });
+        }
+    });
+    refused.map_or(Ok(()), Err)
 }
 
 /// Whether a candidate is of the edges of two bodies, and these are where they seem to be: those of quadratic cells are curved.

@@ -64,7 +64,7 @@ impl<const D: usize> Stage<D> {
         let (dt, [start, end]) = (analysis.time_step, analysis.span());
         let steps = (end - start) / dt;
         if steps > MAX_STEPS {
-            let message = format!("{dt}: the run would have {steps:.1e} steps, more than {MAX_STEPS:.0e}");
+            let message = format!("{dt:?}: the run would have {steps:.1e} steps, more than {MAX_STEPS:.0e}");
             return Err(InputError::new("analysis.time_step", message));
         }
         let mut given = Vec::new();
