@@ -32,8 +32,6 @@ pub(super) struct Shell<const D: usize> {
     cells: Vec<f64>,
     pub least_cell: f64,
     pub largest_cell: f64,
-    /// The normals of its facets where it was first: where they turn by more than that of a round side there is a corner, for ever.
-    normals: Vec<Vector<D>>,
     /// The arcs that its facets stood for there [m].
     arcs: Vec<f64>,
     /// How thick the wall behind each of its facets was there [m].
@@ -45,6 +43,8 @@ pub(super) struct Shell<const D: usize> {
     first: u32,
     /// Where its nodes are [m], from that with the number `first` on.
     x: Vec<Vector<D>>,
+    /// Where they were first: where normals turn there by more than that of a round side there is a corner, for ever.
+    reference: Vec<Vector<D>>,
     pub tree: Bvh<D>,
     bounds: Aabb<D>,
     is_fitted: bool,
@@ -85,7 +85,7 @@ impl<const D: usize> Shell<D> {
             cells: Vec::new(),
             least_cell: f64::INFINITY,
             largest_cell: 0.0,
-            normals: Vec::new(),
+            reference: Vec::new(),
             arcs: Vec::new(),
             walls: Vec::new(),
             ball: None,
@@ -141,7 +141,7 @@ impl<const D: usize> Shell<D> {
         let facets = || 0..self.facets.len() as u32;
         self.walls = facets().map(|f| self.thickness_behind(f)).collect();
         let cells: Vec<f64> = facets().map(|f| self.diameter(f)).collect();
-        self.normals = facets().map(|f| self.normal(f)).collect();
+        self.reference.clone_from(&self.x);
         self.arcs = facets().map(|f| self.arc(f)).collect();
         let bounds = (f64::INFINITY, 0.0);
         (self.least_cell, self.largest_cell) =
@@ -176,13 +176,34 @@ impl<const D: usize> Shell<D> {
         diameter(&self.facets[facet as usize], &|n| self.at(n))
     }
 
-    /// How far the arc through a facet, whose neighbours are turned against it, is in front of its middle [m]; not at corners.
+    /// How far the arc through a facet, whose neighbours are turned against it, is in front of its middle [m]; not at corners. One of second
+    /// order is two of half its length, as the node between is kept out too: these are a quarter as high.
     pub fn arc(&self, facet: u32) -> f64 {
-        let (own, first) = (self.normal(facet), self.normals[facet as usize]);
-        let around = self.facets[facet as usize].nodes.iter().flat_map(|n| self.around(*n));
-        let smooth = around.filter(|f| first.dot(&self.normals[**f as usize]) > SEARCH.corner);
-        let turn = smooth.map(|&f| own.dot(&self.normal(f))).fold(1.0, f64::min).max(-1.0);
-        self.diameter(facet) * turn.acos() / 8.0
+        let own = self.normal(facet);
+        let Facet { kind, nodes } = &self.facets[facet as usize];
+        let around = nodes.iter().flat_map(|&n| self.around(n).iter().map(move |&f| (n, f)));
+        let smooth = around.filter(|&(n, f)| self.was_smooth(n, [facet, f]));
+        let turn = smooth.map(|(_, f)| own.dot(&self.normal(f))).fold(1.0, f64::min).max(-1.0);
+        self.diameter(facet) * turn.acos() / if kind.is_quadratic() { 32.0 } else { 8.0 }
+    }
+
+    /// Whether there was no corner between two facets at a node of both.
+    fn was_smooth(&self, node: u32, facets: [u32; 2]) -> bool {
+        let [a, b] = facets.map(|f| {
+            let facet = &self.facets[f as usize];
+            let patch = Patch::new(facet, &|n| self.reference[(n - self.first) as usize]);
+            // What is straight has one normal.
+            let place = facet.nodes.iter().position(|&n| n == node).filter(|_| facet.kind.is_quadratic());
+            let at = place.map_or_else(
+                || patch.middle(),
+                |k| {
+                    let [xi, eta, _] = facet.kind.reference().nodes[k];
+                    patch.at(&[xi, eta])
+                },
+            );
+            normal(&at.tangents)
+        });
+        a.dot(&b) > SEARCH.corner
     }
 
     /// The edges that are straight, each with the smaller of its facets.
