@@ -170,6 +170,9 @@ impl Strategy {
                 shift = (shift * if caution > 0 { decrease.max(CONTROL.slow) } else { decrease })
                     .max(CONTROL.smallest);
                 caution = caution.saturating_sub(1);
+            } else if newton_end.iterations == 0 && monitor.exhausted().is_none() {
+                // What is too large for its square is no start, whatever the shift.
+                return SolveStatus::Stalled;
             } else {
                 shift = match shift {
                     _ if shift <= CONTROL.nearly_none => CONTROL.safe,

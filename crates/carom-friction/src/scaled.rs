@@ -15,16 +15,18 @@ pub(crate) fn solve<const D: usize>(
     let units = Units::of(problem);
     if units.are_own() {
         let mut monitor = Monitor::new(problem, rule, clock);
-        drop_idle_reactions(&mut monitor, r);
+        drop_useless_reactions(&mut monitor, r);
         let (kind, status) = run(&mut monitor, r);
+        drop_what_is_no_number(r);
         return monitor.report(kind, status, r);
     }
     let scaled = units.enter(problem);
     units.enter_reactions(r);
     let rule = StoppingRule { unit: units.stiffness(rule.unit), ..*rule };
     let mut monitor = Monitor::new(&scaled, &rule, clock);
-    drop_idle_reactions(&mut monitor, r);
+    drop_useless_reactions(&mut monitor, r);
     let (kind, status) = run(&mut monitor, r);
+    drop_what_is_no_number(r);
     // There and back again: the answer is judged as the caller gets it.
     units.leave_reactions(r);
     let mut returned = r.to_vec();
@@ -34,10 +36,19 @@ pub(crate) fn solve<const D: usize>(
     report
 }
 
-/// Where no motions call for reactions none are an answer, and the residual of any others has nothing to be small beside.
-fn drop_idle_reactions<const D: usize>(monitor: &mut Monitor<'_, D>, r: &mut [Vector<D>]) {
+/// Iterations may end in nothing, of contacts that yield against their reactions say. Nobody is handed that.
+fn drop_what_is_no_number<const D: usize>(r: &mut [Vector<D>]) {
+    if !r.iter().all(|r| r.iter().all(|x| x.is_finite())) {
+        r.fill(Vector::zeros());
+    }
+}
+
+/// Where no motions call for reactions none are an answer, and the residual of any others has nothing to be small beside. Those that have no
+/// square are no start.
+fn drop_useless_reactions<const D: usize>(monitor: &mut Monitor<'_, D>, r: &mut [Vector<D>]) {
     let is_idle = monitor.problem().q.iter().all(|q| q.iter().all(|x| *x == 0.0));
-    if is_idle && !monitor.is_solved_by(r) {
+    let square: f64 = r.iter().map(Vector::norm_squared).sum();
+    if !square.is_finite() || is_idle && !monitor.is_solved_by(r) {
         r.fill(Vector::zeros());
     }
 }

@@ -142,6 +142,45 @@ fn without_motions_there_are_no_reactions_whatever_the_guess() {
     }
 }
 
+/// Symptom guarded against: where a guess had no square, Newton's iterations had no first one, and were begun again for ever.
+#[test]
+fn a_guess_of_any_size_ends_in_the_answer() {
+    let plain = problem::<3>(3, 9, &entries(), 0.5, 0.3);
+    let rule = StoppingRule { tolerance: 1e-10, ..Default::default() };
+    for kind in SolverKind::ALL {
+        let (report, expected) = solve(kind, &plain, &rule);
+        assert!(report.is_solved());
+        for size in [1e160, 1e300, f64::INFINITY, f64::NAN] {
+            let mut r = vec![Vector::<3>::new(size, 0.1 * size, 0.0); 3];
+            assert!(kind.solver().solve(&plain, &mut r, &rule).is_solved(), "{kind:?} {size:e}");
+            for (r, expected) in r.iter().zip(&expected) {
+                assert!((r - expected).norm() < 1e-6 * expected.norm().max(1.0), "{kind:?} {size:e}");
+            }
+        }
+    }
+}
+
+/// Symptom guarded against: sweeps over contacts that yield against their reactions, as those of bodies that give way, ended in forces of 1e153 N,
+/// from which Newton's iterations never came back.
+#[test]
+fn contacts_that_yield_against_their_reactions_end_all_the_same() {
+    let entries = entries();
+    for count in [2, 5, 10] {
+        let mut yielding = problem::<2>(count, 7, &entries, 0.5, 0.0);
+        let mut w = BlockMatrix::default();
+        for i in 0..count {
+            let sign = if i % 3 == 1 { -9.0 } else { 1.0 };
+            w.push_row(yielding.w.row(i).map(|(j, block)| (j, if i == j { block * sign } else { *block })));
+        }
+        yielding.w = w;
+        for kind in SolverKind::ALL {
+            let (report, r) = solve(kind, &yielding, &StoppingRule::default());
+            assert!(report.is_solved() || report.status != SolveStatus::Solved, "{kind:?}");
+            assert!(r.iter().all(|r| r.iter().all(|x| x.is_finite())), "{kind:?}");
+        }
+    }
+}
+
 /// A body wedged between two walls that just touch it: any thrust of the one on the other is an answer, and so is that of the guess.
 #[test]
 fn a_guess_that_is_an_answer_is_kept_where_nothing_moves() {
