@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator
+from dataclasses import dataclass
 from functools import cached_property, partial
 
 import numpy as np
@@ -18,19 +19,35 @@ from carom.auditing.contact.pairs import ALIKE, Pairs, build_sides
 from carom.auditing.drives.loads import Loads
 from carom.auditing.drives.springs import AuditSpring, build_spring
 from carom.auditing.drives.supports import Supports
+from carom.auditing.targets.covering import Covering
 from carom.auditing.targets.curve import Curve
 from carom.auditing.targets.feet import Target
 from carom.auditing.targets.gregory import GregoryPatches
 from carom.auditing.targets.sheet import FlatPatches, Sheet
 from carom.case.analysis import Conserving, Static, Theta
 from carom.case.body import Body, DescribedBody, ReducedBody, RigidBody
-from carom.case.cohesion import holds
 from carom.case.foreign_body import ForeignEntry
 from carom.case.full_stage import FullStage
 from carom.case.scenario import Scenario
 from carom.errors import InputError
 
 CONDITIONS = ("gap", "midpoint", "endpoint", "massless")
+
+
+@dataclass(frozen=True)
+class Begun:
+    """Where a run began.
+
+    Parameters
+    ----------
+    displacement
+        Of all nodes [m], shape [node_count, D].
+    time
+        When [s].
+    """
+
+    displacement: Array
+    time: float
 
 
 class AuditModel:
@@ -114,10 +131,13 @@ class AuditModel:
         self.loads = [Loads(body, stage.loads) for body in self.bodies]
         """Those of every body."""
         self.springs = [build_spring(spring, self) for spring in scenario.springs]
+        self._coverings: dict[int, Covering] = {}
         self._depths: dict[tuple[int, int], Array] = {}
         self._deepest: dict[tuple[int, int], float] = {}
         self.before: AuditModel | None = None
         """The stage before."""
+        self.begun = Begun(np.zeros_like(points), 0.0)
+        """Where the run began."""
         self.size = max(_diameter(b.points) for b in self.bodies)
 
     def _read_scheme(self) -> None:
@@ -208,6 +228,11 @@ class AuditModel:
         return self.connected(body) or self.loaded(body) or self.supported(body)
 
     @property
+    def coheres(self) -> bool:
+        """Whether some pair holds together."""
+        return any(side.holding is not None for side in self.sides)
+
+    @property
     def rubs_by_law(self) -> bool:
         """Whether friction of some pair remembers what happened before a step."""
         return any(side.law.remembers for side in self.sides)
@@ -219,6 +244,15 @@ class AuditModel:
     def interference(self, a: str, b: str) -> Interference:
         """Return by how much the surfaces of two are pushed apart, by their names."""
         return self._pairs.interference(a, b)
+
+    def covering(self, index: int) -> Covering:
+        """Return the boundary of a body as mortar rows are integrated over it."""
+        if index not in self._coverings:
+            body = self.bodies[index]
+            self._coverings[index] = Covering(
+                body.facets, body.points, self.targets[index], revolution=body.revolution
+            )
+        return self._coverings[index]
 
     def is_round(self, source: int, target: int) -> bool:
         """Return whether both sides are what they are without their meshes: round, or plain."""
@@ -338,10 +372,12 @@ class AuditModel:
     def _spares_mass(self, entry: DescribedBody, body: AuditBody) -> bool:
         """Return whether a body may have no mass where it touches others.
 
-        What is rigid or reduced may not, nor what flows, grows or rubs by a law, nor where springs
-        or masses are attached to what may touch.
+        What is rigid or reduced may not, nor what flows, grows, rubs by a law or holds on to
+        others, nor where springs or masses are attached to what may touch.
         """
         if isinstance(entry, RigidBody | ReducedBody) or self._pairs.rubs_by_law(entry.name):
+            return False
+        if self._pairs.holds(entry.name):
             return False
         if body.law.flows or body.growth.acts:
             return False
@@ -365,10 +401,11 @@ class AuditModel:
     def gives_back(self) -> bool:
         """Whether friction of a step may give energy back.
 
-        So it may without mass, against velocities at the end of a step, and where landing takes of
-        a reaction and of its friction.
+        So it may without mass, against velocities at the end of a step, where landing takes of a
+        reaction and of its friction, and where bonds slide by as much as iterations leave.
         """
-        return self.massless or self.impacts or self.condition == "midpoint"
+        bonds = any(side.holding is not None and side.holding.unbreakable for side in self.sides)
+        return self.massless or self.impacts or bonds or self.condition == "midpoint"
 
     @property
     def jolts(self) -> bool:
@@ -391,7 +428,5 @@ def _diameter(points: Array) -> float:
 
 def _refuse(scenario: Scenario) -> None:
     """Refuse what the auditor has no second implementation of."""
-    if any(map(holds, (scenario.contact.cohesion, *(p.cohesion for p in scenario.contact.pairs)))):
-        raise InputError("cannot audit surfaces that hold together yet")
     if scenario.output.audit and any(body.kind == "reduced" for body in scenario.bodies):
         raise InputError("cannot audit the steps of a reduced body yet, as with output.audit")

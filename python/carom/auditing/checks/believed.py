@@ -100,6 +100,13 @@ def leave_rows(
         *(("friction_defect",) if "friction_defect" in rows.history else ()),
         store="",
     )
+    if model.coheres:
+        leave(
+            unstored,
+            "how many contacts hold in rows without a stored step",
+            "holding",
+            store=EVERY_FRAME,
+        )
     if model.blended:
         leave(unstored, "blends of rows without a stored step", "blend", store=EVERY_FRAME)
     leave(

@@ -84,7 +84,8 @@ class FrameChecks:
             # A run that goes on from another starts with reactions of no step of its own.
             counted = row["contacts"] > 0
             most = most_uncounted(self._model, self._scales, row["shortest_step"])
-            wrong = pressed == 0.0 if counted else pressed > most
+            # What holds is counted even where it bears nothing.
+            wrong = pressed == 0.0 and not self._model.coheres if counted else pressed > most
             self._check("contact count", float(wrong), 0.0, where)
         self._tracks(frame, row, where)
 
@@ -125,7 +126,7 @@ class FrameChecks:
             one_sided = [
                 gap
                 for gap, side in zip(gaps, model.sides, strict=True)
-                if not side.two_sided and (side.massless or not model.mixed)
+                if side.ruled_by_gaps and (side.massless or not model.mixed)
             ]
             for gap in one_sided:
                 self._check("no penetration", max(-gap, 0.0), allowed, where)

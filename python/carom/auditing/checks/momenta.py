@@ -65,6 +65,11 @@ class MomentumChecks:
                 release = np.inf if event["release"] is None else event["release"]
                 # Without mass, the reactions of the start act in a step too.
                 touched |= (times >= event["onset"]) & (before <= release)
+        if self._model.coheres:
+            # What holds may pull without an event.
+            holds = self._rows.history["holding"] > 0
+            touched[1:] |= holds[:-1]
+            touched |= holds
         return touched
 
     def _flight(self, name: str) -> None:
@@ -112,6 +117,7 @@ class MomentumChecks:
         free = self.angular
         free &= rows.single & ~self._touches({o.name for o in model.scenario.obstacles})
         apart = any(side.target >= 0 and side.interference.acts for side in model.sides)
+        apart = apart or any(side.mortar for side in model.sides)
         if model.mixed or not model.massless or apart:
             # Reactions may act where nodes and feet are not at the same place.
             free &= ~self._touches({body.name for body in model.bodies})

@@ -236,13 +236,16 @@ class RowChecks:
     def _signs(self) -> None:
         h = self._history
         for name in OF_STEPS:
-            self._check("row: signs", np.maximum(-h[name], 0.0), 0.0)
+            if not (name == "normal_force" and self._model.coheres):
+                self._check("row: signs", np.maximum(-h[name], 0.0), 0.0)
             self._findings.check("row: signs", h[name][0], 0.0, f"{name} before the first step")
         for name in ("contacts", "retried_steps"):
             self._check("row: signs", h[name] % 1.0, 0.0)
-        self._check(
-            "row: signs", ((h["contacts"] > 0) != (h["normal_force"] > 0)).astype(float), 0.0
-        )
+        if self._model.coheres:
+            self._holding()
+        else:
+            pressed = h["normal_force"] > 0
+            self._check("row: signs", ((h["contacts"] > 0) != pressed).astype(float), 0.0)
         limit = LARGEST_BLEND if self._model.blended else 0.0
         self._check("row: signs", np.maximum(h["blend"] - limit, 0.0), 0.0)
         flows = any(body.law.flows for body in self._model.bodies)
@@ -266,8 +269,8 @@ class RowChecks:
             float(h["residual"].max()),
             "",
         )
-        two_sided = any(side.two_sided for side in self._model.sides) or self._model.mixed
-        if self._model.condition in ("gap", "massless") and self._model.sides and not two_sided:
+        let_in = not all(side.ruled_by_gaps for side in self._model.sides) or self._model.mixed
+        if self._model.condition in ("gap", "massless") and self._model.sides and not let_in:
             off = self._scales.penetration()
             # What a stage starts with is of the one before.
             own = self._times > self._start if self._model.before else np.isfinite(self._times)
@@ -276,6 +279,21 @@ class RowChecks:
                 # What presses is closed.
                 open_gap = np.where(h["normal_force"] > 0, h["min_gap"], 0.0)
                 self._check("row: penetration", np.maximum(open_gap, 0.0), off)
+
+    def _holding(self) -> None:
+        """Check how many contacts hold: none that is not counted, and no more than before.
+
+        Where it lasts contacts that close hold from then on.
+        """
+        h = self._history
+        holding, contacts = h["holding"], h["contacts"]
+        self._check("holding", holding % 1.0, 0.0)
+        self._check("holding", np.maximum(-holding, 0.0), 0.0)
+        self._check("holding", np.maximum(holding - contacts, 0.0)[1:], 0.0)
+        self._check("row: signs", ((contacts == 0) & (h["normal_force"] != 0)).astype(float), 0.0)
+        held = [side.holding for side in self._model.sides if side.holding is not None]
+        if not any(holding.lasting for holding in held):
+            self._check("holding", np.maximum(np.diff(holding), 0.0), 0.0)
 
     def _lengths(self) -> None:
         """Check the shortest steps: those of the times, or of as many halves as there may be."""

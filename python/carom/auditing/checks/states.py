@@ -12,6 +12,7 @@ from carom.auditing.checks.frames import FrameChecks
 from carom.auditing.checks.ledger import LedgerChecks
 from carom.auditing.checks.steps import StepChecks
 from carom.auditing.checks.surface import SurfaceChecks
+from carom.auditing.model import Begun
 from carom.auditing.records.files import Files, Frame
 from carom.auditing.records.parts import Part
 from carom.auditing.report import Findings
@@ -47,6 +48,9 @@ class StageChecks:
 
     def begin(self, frame: Frame, before: StageChecks | None) -> None:
         """Take the frame that the stage starts with."""
+        self.model.begun = (
+            Begun(frame.displacement, frame.time) if before is None else before.model.begun
+        )
         for index, (body, supports) in enumerate(
             zip(self.model.bodies, self.model.supports, strict=True)
         ):

@@ -90,8 +90,12 @@ class StepChecks:
         force = found.normal_force
         off += float(np.abs(force[perhaps & ~surely]).sum())
         self._check("normal force", after["normal_force"] - force[~surely].sum(), off, where)
+        if self._model.coheres:
+            held = int((found.adhesion > 0.0).sum())
+            self._check("holding", after["holding"] - held, 0.0, where)
         gap, doubt = self._gap
-        off = float(np.abs(found.reaction).sum()) * self._scales.geometry(step) + doubt
+        total = float(np.abs(found.reaction).sum() + found.adhesion.sum())
+        off = total * self._scales.geometry(step) + doubt
         self._check("certificate", max(gap - after["certificate"], 0.0), off, where)
         for name, node in self._model.tracks():
             stored = [after[f"{name}.vmid_{axis}"] for axis in AXES[: self._model.dimension]]

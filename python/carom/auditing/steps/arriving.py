@@ -25,7 +25,9 @@ def arriving(step: Step, scales: Scales) -> tuple[Mask, Mask]:
     none = np.zeros(len(found), dtype=bool)
     if model.static or not (model.condition == "midpoint" or model.mixed):
         return none, none
-    ruled, gap, off = ~found.massless, step.touching.start_gaps, scales.geometry(step)
+    # What holds is closed as it is, and has nothing to land on.
+    ruled = ~found.massless & (found.adhesion == 0.0)
+    gap, off = step.touching.start_gaps, scales.geometry(step)
     whole = LANDED * _masses(step) / (model.theta * step.dt)
     impulse = step.dt * found.normal_force
     doubt = step.dt * scales.least_reaction(step.dt)

@@ -13,9 +13,11 @@ from carom.auditing.contact.crossings import crossings, drawn_depths, edges
 from carom.auditing.contact.obstacles import Cornered
 from carom.auditing.contact.rounding import nearest_places
 from carom.auditing.model import AuditModel
+from carom.auditing.steps.bonds import carried
 from carom.auditing.steps.choosing import settle
-from carom.auditing.steps.contacts import AT_EDGES, BEFORE_ROUND, Contacts
+from carom.auditing.steps.contacts import AT_EDGES, AT_MULTIPLIER, BEFORE_ROUND, Contacts
 from carom.auditing.steps.cornered import ON_END, at_corners, at_edges, on_obstacle
+from carom.auditing.steps.multipliers import at_multipliers
 from carom.auditing.steps.place import Place, weighted
 from carom.auditing.targets.feet import BEYOND, CORNER, Feet, Target
 
@@ -42,7 +44,15 @@ def find(
     Feet are those that come closest to the stored gaps and normals. What is stored is not of all
     times of a step: feet at others are near those of the contacts `like` them.
     """
-    return _Finder(model, state, (position, time), step, like).found()
+    found = _Finder(model, state, (position, time), step, like).found()
+    bonds = found.bonds
+    if not bonds.any():
+        return found
+    # What nothing breaks is where it was closed at the start of the run, for ever.
+    begun = model.begun
+    start = (model.points + begun.displacement, begun.time)
+    tied = _Finder(model, state, start, (begun.time, begun.time + 1.0), None).found()
+    return found.placed(~bonds, carried(model, tied, start, (position, time), found))
 
 
 class _Finder:
@@ -76,6 +86,8 @@ class _Finder:
             for node in self._node
         ]
 
+        self._multipliers: dict[tuple[int, int], list[Place]] = {}
+        """The multipliers of mortar pairs, by source and target."""
         self._alike: dict[int, list[Place]] = {}
         """Feet of a contact that are as good as one another."""
 
@@ -254,7 +266,31 @@ class _Finder:
                     place.gap, place.normal, misfit, BEFORE_ROUND, sources=nodes, depth=depth
                 )
 
+    def _under_multipliers(self, number: int, contact: int) -> None:
+        """Place a contact of a mortar pair under a multiplier, or where edges cross."""
+        source = int(self._source[contact])
+        if (source, number) not in self._multipliers:
+            places = at_multipliers(self._model, source, number, self._position)
+            self._multipliers[source, number] = places
+        own = [p for p in self._multipliers[source, number] if p.node == self._node[contact]]
+        if self._like is not None:
+            fan = int(self._like.facet[contact])
+            own = [place for place in own if place.facet == fan]
+        places = self._fitted(contact, own)
+        if places and (self._like is None or self._like.site[contact] == AT_MULTIPLIER):
+            self._places[contact] = min(places, key=lambda place: place.misfit)
+        if self._model.dimension == 3 and self._may_be(AT_EDGES, contact):
+            crossed = self._at_edges(number, contact)
+            if crossed:
+                self._places[contact], self._alike[contact] = crossed[0], crossed
+
     def _before_body(self, number: int, at: Indices) -> None:
+        mortar = [side is not None and side.mortar for side in self._sides]
+        for contact in at[np.array(mortar, dtype=bool)[at]]:
+            self._under_multipliers(number, int(contact))
+        at = at[~np.array(mortar, dtype=bool)[at]]
+        if len(at) == 0:
+            return
         model, target = self._model, self._model.targets[number]
         span = model.bodies[number].span
         feet = target.feet(self._position[self._node[at]], self._position[span])
@@ -272,8 +308,10 @@ class _Finder:
 
     def _at_node(self, feet: Feet, mine: Indices, contact: int, number: int) -> None:
         misfit = self._misfit(contact, feet.gap[mine], feet.normal[mine])
-        good = mine[misfit <= misfit.min() + SAME]
-        good = good[np.argsort(feet.beyond[good], kind="stable")]
+        alike_ones = misfit <= misfit.min() + SAME
+        good = mine[alike_ones]
+        # At a node that two facets share, the one whose normal it is.
+        good = good[np.lexsort((misfit[alike_ones], feet.beyond[good]))]
         if self._like is not None:
             near = (int(self._like.facet[contact]), self._like.normal[contact])
             target = self._model.targets[number]
@@ -379,6 +417,7 @@ class _Finder:
             source=self._source,
             target=self._target,
             reaction=self._state["contact_reaction"],
+            adhesion=self._state["contact_adhesion"],
             gap=gap - stand_off,
             normal=normal,
             sources=sources,
@@ -386,6 +425,7 @@ class _Finder:
             followed=followed,
             weights=weights,
             facet=np.array([place.facet for place in self._places], dtype=np.int64),
+            area=np.array([place.area for place in self._places]),
             shift=shift,
             velocity=velocity,
             interference=interference,

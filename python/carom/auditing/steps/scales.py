@@ -44,8 +44,6 @@ class Scales:
 
     def __init__(self, model: AuditModel) -> None:
         self._model = model
-        self.energy = 0.0
-        """Largest energy of a state [J]."""
         self.speed = model.fastest_obstacle
         """Largest speed of a node, or of an obstacle [m/s]."""
         self.reach = model.fastest_obstacle * model.stage.duration
@@ -57,6 +55,10 @@ class Scales:
         self.moved = 0.0
         """Largest displacement of a node [m]."""
         self.mass = sum(body.mass.total for body in model.bodies)
+        weight = self.mass * float(np.linalg.norm(model.gravity))
+        # Where nothing ever moves, round-off of places does work on weights.
+        self.energy = EPS * model.size * weight
+        """Largest energy of a state [J]."""
 
     def share(self, others: Sequence[Scales]) -> None:
         """Take the largest magnitudes of the stages of a run."""
