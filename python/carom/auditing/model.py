@@ -15,7 +15,7 @@ from carom.auditing.bodies.places import Attached
 from carom.auditing.contact.interference import Interference
 from carom.auditing.contact.obstacles import AuditObstacle, Cornered, Round, obstacle_of
 from carom.auditing.contact.overlaps import corners_in, crossed, nodes_in, round_in
-from carom.auditing.contact.pairs import ALIKE, Pairs, build_sides
+from carom.auditing.contact.pairs import ALIKE, Pairs, Side, build_sides
 from carom.auditing.drives.loads import Loads
 from carom.auditing.drives.springs import AuditSpring, build_spring
 from carom.auditing.drives.supports import Supports
@@ -94,12 +94,6 @@ class AuditModel:
         condition = self.contact.condition
         if condition not in CONDITIONS:
             raise InputError(f"cannot audit the contact condition {condition!r} yet")
-        discretisations = [
-            self.contact.discretisation,
-            *(pair.discretisation for pair in self.contact.pairs),
-        ]
-        if "mortar" in discretisations:
-            raise InputError("cannot audit mortar contact yet")
         written = [condition]
         if not stage.is_dynamic:
             # Load steps have the weight where steps in time of other stages have it.
@@ -253,6 +247,12 @@ class AuditModel:
                 body.facets, body.points, self.targets[index], revolution=body.revolution
             )
         return self._coverings[index]
+
+    def most_contacts(self, side: Side) -> int:
+        """Return how many nodes of a side may touch, or how many multipliers."""
+        if side.mortar:
+            return self.covering(side.source).multiplier_count
+        return len(self.bodies[side.source].sources)
 
     def is_round(self, source: int, target: int) -> bool:
         """Return whether both sides are what they are without their meshes: round, or plain."""

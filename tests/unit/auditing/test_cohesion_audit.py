@@ -115,7 +115,7 @@ def test_a_force_of_every_contact_is_confirmed(tmp_path):
     assert checks["adhesion"].count > 5
 
 
-@pytest.mark.parametrize("discretisation", ["node-to-segment"])
+@pytest.mark.parametrize("discretisation", ["node-to-segment", "mortar"])
 def test_bonds_that_nothing_breaks_are_confirmed(tmp_path, discretisation):
     method, bond = ("midpoint", "conserving"), {"unbreakable": True}
     checks = confirmed(blocks(method, bond, discretisation=discretisation), tmp_path)

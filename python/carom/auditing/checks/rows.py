@@ -258,7 +258,7 @@ class RowChecks:
         ):
             if not may_be:
                 self._check("row: signs", h[name], 0.0)
-        most = sum(len(self._model.bodies[side.source].sources) for side in self._model.sides)
+        most = sum(self._model.most_contacts(side) for side in self._model.sides)
         most += self._model.corner_count * len(self._model.bodies)
         self._check("row: signs", np.maximum(h["contacts"] - most, 0.0), 0.0)
         self._check("row: signs", np.maximum(-h["penetration"], 0.0), 0.0)

@@ -40,6 +40,12 @@ class Covering:
         self.fans = fans(facets, points)
         self._target = target
 
+    @property
+    def multiplier_count(self) -> int:
+        """How many multipliers it has: one of every fan around every node."""
+        both = zip(self.facets, self.fans, strict=True)
+        return len({pair for nodes, own in both for pair in zip(nodes.tolist(), own, strict=True)})
+
     def kind(self, facet: int) -> Kind:
         """Return the kind of a facet."""
         return kind_with(self.dimension - 1, int(self._counts[facet]))
@@ -81,40 +87,42 @@ class Covering:
         assert patch is not None, "all parts of a facet are smooth, or none"
         return self._target.over(patch, of_part @ corners)
 
-    def facing(self, facet: int, x: Array, position: Array) -> tuple[Indices, Array]:
+    def facing(self, facets: Indices, x: Array, position: Array) -> tuple[Indices, Array]:
         """Return the nodes that the closest points to others follow, and weights, [count, n].
 
-        They are over the facet or, where it goes on smoothly, over the next ones.
+        They are over facets or, where these go on smoothly, over the next ones.
 
         Parameters
         ----------
-        facet
-            The facet.
+        facets
+            The facet of each point, shape [count].
         x
             Points [m], shape [count, D].
         position
             Where the nodes of the body are [m], shape [node_count, D].
         """
         feet = self._target.feet(x, position)
-        chosen = [self._foot(facet, feet, np.flatnonzero(feet.point == k)) for k in range(len(x))]
+        order = np.argsort(feet.point, kind="stable")
+        ends = np.cumsum(np.bincount(feet.point, minlength=len(x)))[:-1]
+        each = zip(facets.tolist(), np.split(order, ends), strict=True)
+        chosen = [self._foot(facet, feet, mine) for facet, mine in each]
         return feet.nodes[chosen], feet.weights[chosen]
 
     def _foot(self, facet: int, feet: Feet, mine: Indices) -> int:
         """Return which of the feet `mine` of a point goes on from a facet."""
-        own = [self._owner(int(foot)) == facet for foot in feet.facet[mine]]
-        on, own_ones = feet.beyond[mine] == 0.0, np.array(own, dtype=bool)
-        normals = feet.normal[mine]
-        nodes = set(self.facets[facet].tolist())
-        beside = np.array(
-            [bool(nodes & set(self.facets[self._owner(int(f))].tolist())) for f in feet.facet[mine]]
-        )
-        if own_ones.any():
-            beside &= normals @ normals[own_ones.argmax()] > CORNER
-        for chosen in (own_ones & on, beside & on, own_ones, beside):
+        owners = [self._owner(patch) for patch in feet.facet[mine].tolist()]
+        own = np.array([owner == facet for owner in owners], dtype=bool)
+        on = feet.beyond[mine] == 0.0
+        around = set(self.facets[facet].tolist())
+        beside = np.array([not around.isdisjoint(self.facets[o].tolist()) for o in owners])
+        if own.any():
+            # What is beyond a corner is not beside it.
+            beside &= feet.normal[mine] @ feet.normal[mine[own.argmax()]] > CORNER
+        for chosen in (own & on, beside & on, own, beside, np.ones_like(own)):
             if chosen.any():
-                among = mine[chosen]
-                return int(among[np.abs(feet.gap[among]).argmin()])
-        return int(mine[np.abs(feet.gap[mine]).argmin()])
+                break
+        among = mine[chosen]
+        return int(among[np.abs(feet.gap[among]).argmin()])
 
     def _owner(self, patch: int) -> int:
         """Return the facet that a piece of the target is over."""
