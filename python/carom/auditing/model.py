@@ -138,6 +138,10 @@ class AuditModel:
         """Take what the analysis says of the scheme."""
         self.static = isinstance(self.analysis, Static)
         """Whether there is no inertia: forces balance at the end of each load step."""
+        self.stabilised = isinstance(self.analysis, Static) and (
+            self.analysis.stabilisation != "none"
+        )
+        """Whether load steps that find no equilibrium go on with inertia to another."""
         # Where there is no velocity the end of a step has all the weight.
         self.conserving, self.theta, self.xi = False, 1.0, 1.0
         if not isinstance(self.analysis, Static):
@@ -146,8 +150,6 @@ class AuditModel:
             self.theta, self.xi = 0.5, 0.5
             if isinstance(scheme, Theta):
                 self.theta, self.xi = scheme.theta, scheme.xi
-        elif self.analysis.stabilisation != "none":
-            raise InputError("cannot audit load steps that are stabilised yet")
 
     @property
     def faceted(self) -> bool:

@@ -100,6 +100,12 @@ def leave_rows(
         *(("friction_defect",) if "friction_defect" in rows.history else ()),
         store="",
     )
+    if model.stabilised:
+        leave(
+            rows.history["retried_steps"] > 0,
+            "steps with inertia from one equilibrium to another, but for their sums",
+            store="",
+        )
     if model.coheres:
         leave(
             unstored,

@@ -12,6 +12,7 @@ from carom.auditing.arrays import AXES, Array
 from carom.auditing.bodies.body import AuditBody
 from carom.auditing.bodies.moving import KINETIC_PARTS
 from carom.auditing.checks.blend import LARGEST_BLEND
+from carom.auditing.checks.pushes import beyond_pushes
 from carom.auditing.model import AuditModel
 from carom.auditing.records.parts import OF_STEPS, SUMS
 from carom.auditing.records.rows import GRID, Rows
@@ -145,7 +146,8 @@ class RowChecks:
         if model.stage.velocities:
             self._findings.leave("the work of giving bodies velocities when a stage starts")
         elif not loaded:
-            self._check("row: external", h["external"] - external, off)
+            error = beyond_pushes(model, h, h["external"] - external)
+            self._check("row: external", error, off)
         stored = self._rows.momentum
         off = SAFETY * ROUND_OFF * scales.mass * scales.speed
         self._check("row: momentum", np.abs(stored - momentum).max(axis=1), off)
@@ -299,7 +301,9 @@ class RowChecks:
         """Check the shortest steps: those of the times, or of as many halves as there may be."""
         h = self._history
         # A step that fails is halved, but for the one that a run fails with.
-        longest = np.where(h["retried_steps"] > 0, 0.5, 1.0) * self._dt
+        # Stabilised ones that are not halved go on with inertia at once.
+        halves = self._model.analysis.max_halvings > 0
+        longest = np.where((h["retried_steps"] > 0) & halves, 0.5, 1.0) * self._dt
         if self._summary["status"] == "failed":
             longest[-1] = self._dt
         off = SAFETY * EPS * self._end

@@ -175,11 +175,12 @@ class StateChecks:
             return
         checked = Step(stage.model, step)
         stage.steps.step(checked)
-        if not given.any():
+        if not (given.any() or checked.settles):
             stage.ledger.step(checked)
         self._surface.borne(checked.touching.all, frame, stage.steps.turn(checked))
         row = self._row(frame.time)
         if row is not None:
             # What bodies are given is of the step in the rows, too.
-            start = None if given.any() else self._row(float(checked.start["time"]))
+            alone = not (given.any() or checked.settles)
+            start = self._row(float(checked.start["time"])) if alone else None
             stage.steps.rows(checked, start, row)

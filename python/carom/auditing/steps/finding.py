@@ -75,7 +75,8 @@ class _Finder:
         sides = {(side.source, side.target): side for side in model.sides}
         between = zip(self._source.tolist(), self._target.tolist(), strict=True)
         self._sides = tuple(sides.get(key) for key in between)
-        self._part = (time - step[0]) / (step[1] - step[0])
+        # Load steps in which time stands still are at their end.
+        self._part = (time - step[0]) / (step[1] - step[0]) if step[1] > step[0] else 1.0
         self._resolves = [
             side is not None and side.interference.left(step[0]) > 0.0 for side in self._sides
         ]

@@ -136,7 +136,7 @@ class Forces:
             missing += float((without * d)[~held].sum())
             available -= float((beside * d)[~held].sum())
         return BodyForces(
-            inertia=body.mass.times(v1 - v0) / dt * (not model.static),
+            inertia=np.zeros_like(d) if model.static else body.mass.times(v1 - v0) / dt,
             gravity=body.mass.nodal[:, None] * model.gravity,
             loads=loads,
             end_loads=end_loads,

@@ -100,7 +100,11 @@ class Scales:
 
     def displacement(self, step: Step) -> float:
         """Return how far the displacements of a step may be off [m]."""
-        tolerance = self._model.analysis.newton.tolerance * step.motion
+        motion = step.motion
+        if self._model.static:
+            # Iterations of load steps end at what is small beside all that has moved.
+            motion = max(motion, float(np.abs(step.u0).max()))
+        tolerance = self._model.analysis.newton.tolerance * motion
         return SAFETY * max(tolerance, FLOOR * (self._model.size + self.reach))
 
     def displacement_in(self, dt: Array) -> Array:
@@ -165,4 +169,6 @@ class Scales:
             shares = np.abs(spring.shares)
             held = spring.stiffness(dt) * float(shares.sum()) * shares[own]
             np.add.at(resisted, spring.nodes[own] - body.span.start, held)
+        if model.static:
+            return resisted
         return resisted + np.abs(body.mass.nodal) * (rate / dt + body.law.mass_damping * rate)

@@ -50,6 +50,14 @@ class States:
         return model.starts_elsewhere and float(self.start["time"]) == model.stage.start_time
 
     @property
+    def settles(self) -> bool:
+        """Whether it is the load step in which what went on with inertia comes to rest.
+
+        The time of loads stands still in it.
+        """
+        return self.model.stabilised and float(self.start["time"]) == self.time
+
+    @property
     def uses_start(self) -> bool:
         """Whether the reactions of its start count in it."""
         return self.model.static or self.model.massless
@@ -62,6 +70,8 @@ class States:
         Nominal steps are equal but for a shorter last one, and those that failed are halved; the
         difference of two times has more round-off than a step may have.
         """
+        if self.settles:
+            return 0.0, 0.0, 1.0
         analysis = self.model.analysis
         nominal, end = analysis.time_step, self.model.stage.duration
         raw = self.time - float(self.start["time"])
