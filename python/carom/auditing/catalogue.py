@@ -11,6 +11,7 @@ CHECKS: dict[str, tuple[str, str]] = {
     # The states at output times.
     "plane": ("fields have no z component", ""),
     "rigid motion": ("nodes of a rigid body are where it has them, and move so", "m"),
+    "reduced shapes": ("a reduced body has the shapes of its surface and of its modes", "m"),
     "tied nodes": ("both sides of a body that repeats itself move alike", "m, m/s"),
     "stress": ("stresses are the law's at the stored displacement", "Pa"),
     "plastic strain": ("what has flowed is the law's, from stored step to stored step", ""),

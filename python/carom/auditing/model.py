@@ -84,7 +84,6 @@ class AuditModel:
         *,
         touching_themselves: Collection[str] = (),
     ) -> None:
-        _refuse(scenario)
         self.scenario, self.stage = scenario, stage
         self.dimension = scenario.dimension
         """2 in the plane, 3 in space."""
@@ -426,9 +425,3 @@ def _target(body: AuditBody, *, smooth: bool) -> Target:
 def _diameter(points: Array) -> float:
     """Return the diameter of the smallest ball around the mean of all points [m]."""
     return 2.0 * float(np.linalg.norm(points - points.mean(axis=0), axis=1).max())
-
-
-def _refuse(scenario: Scenario) -> None:
-    """Refuse what the auditor has no second implementation of."""
-    if scenario.output.audit and any(body.kind == "reduced" for body in scenario.bodies):
-        raise InputError("cannot audit the steps of a reduced body yet, as with output.audit")

@@ -9,6 +9,7 @@ import numpy as np
 from carom.auditing.arrays import AXES, Array, components, turning_axes, turning_components
 from carom.auditing.bodies.body import AuditBody
 from carom.auditing.bodies.moving import KINETIC_PARTS
+from carom.auditing.bodies.reduced_step import unshaped
 from carom.auditing.bodies.rigid import bent
 from carom.auditing.model import AuditModel
 from carom.auditing.records.files import Frame
@@ -51,6 +52,13 @@ class FrameChecks:
                     self._check(
                         "tied nodes", mine - mine[body.masters], 0.0, f"{body.name}, {where}"
                     )
+            if body.modes is not None:
+                u = frame.displacement[body.span]
+                beside, off = unshaped(body, u)
+                off += self._round_off_of_places()
+                self._check("reduced shapes", beside, off, f"{body.name}, {where}")
+                if body.vibrations.doubt:
+                    self._findings.leave(f"vibrations of {body.name!r}: {body.vibrations.doubt}")
             if body.rigid:
                 bending = bent(body, frame.displacement[body.span])
                 self._check(

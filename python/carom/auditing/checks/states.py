@@ -170,7 +170,10 @@ class StateChecks:
         given = np.zeros(len(frame.velocity), dtype=bool)
         if step is not None:
             given = check_given(stage.model, step, before, stage.scales, findings)
-        check_links(step, frame, before, status, findings, given=given)
+        read = np.zeros(len(given), dtype=bool)
+        for body in stage.model.bodies:
+            read[body.span] = body.modes is not None
+        check_links(step, frame, before, status, findings, given=given, read=read)
         if step is None:
             return
         checked = Step(stage.model, step)

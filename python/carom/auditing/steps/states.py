@@ -10,6 +10,7 @@ import numpy as np
 
 from carom.auditing.arrays import Array, turned
 from carom.auditing.bodies.body import AuditBody
+from carom.auditing.bodies.reduced_step import ReducedStep, Weights
 from carom.auditing.bodies.rigid import RigidStep
 from carom.auditing.model import AuditModel
 
@@ -147,6 +148,9 @@ class States:
             if body.rigid:
                 u0, v0 = self.u0[body.span], self.v0[body.span]
                 velocity[body.span] = self.rigid(body).scheme(u0, v0, theta, self.dt)[0]
+            elif body.modes is not None:
+                v0 = self.v0[body.span]
+                velocity[body.span] = self.reduced(body).scheme(v0, self.weights)
             elif len(supports):
                 given = supports.velocity(self.time)
                 velocity[body.span][supports.held] = given[supports.held]
@@ -178,6 +182,21 @@ class States:
         for body, supports in zip(self.model.bodies, self.model.supports, strict=True):
             held[body.span] = np.where(supports.held, motion[body.span], 0.0)
         return held
+
+    @property
+    def weights(self) -> Weights:
+        """How the scheme weighs both ends."""
+        model = self.model
+        stress = 0.5 if model.conserving else model.xi
+        return Weights(theta=model.theta, xi=model.xi, stress=stress, dt=self.dt)
+
+    def whole(self, body: AuditBody) -> RigidStep | ReducedStep:
+        """Return the motion of a body whose equations are those of its momenta."""
+        return self.rigid(body) if body.rigid else self.reduced(body)
+
+    def reduced(self, body: AuditBody) -> ReducedStep:
+        """Return the motion of a reduced body."""
+        return ReducedStep.of(body, self.u0[body.span], self.u1[body.span])
 
     def rigid(self, body: AuditBody) -> RigidStep:
         """Return the motion of a rigid body."""
