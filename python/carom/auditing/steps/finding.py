@@ -115,6 +115,7 @@ class _Finder:
 
     def found(self) -> Contacts:
         """Return the contacts."""
+        mortar = np.array([side is not None and side.mortar for side in self._sides], dtype=bool)
         for t in np.unique(self._target):
             at = np.flatnonzero(self._target == t)
             round_ones = np.array([self._is_round(int(k)) for k in at], dtype=bool)
@@ -122,7 +123,10 @@ class _Finder:
                 self._of_ball(int(contact))
             at = at[~round_ones]
             if t >= 0 and t < len(self._model.bodies):
-                self._before_body(int(t), at)
+                for contact in at[mortar[at]]:
+                    self._under_multipliers(int(t), int(contact))
+                if not mortar[at].all():
+                    self._before_body(int(t), at[~mortar[at]])
             elif t < 0 and -1 - t < len(self._model.obstacles):
                 self._before_obstacle(int(-1 - t), at)
         if self._like is None:
@@ -286,12 +290,6 @@ class _Finder:
                 self._places[contact], self._alike[contact] = crossed[0], crossed
 
     def _before_body(self, number: int, at: Indices) -> None:
-        mortar = [side is not None and side.mortar for side in self._sides]
-        for contact in at[np.array(mortar, dtype=bool)[at]]:
-            self._under_multipliers(number, int(contact))
-        at = at[~np.array(mortar, dtype=bool)[at]]
-        if len(at) == 0:
-            return
         model, target = self._model, self._model.targets[number]
         span = model.bodies[number].span
         feet = target.feet(self._position[self._node[at]], self._position[span])
