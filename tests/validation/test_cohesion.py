@@ -210,9 +210,3 @@ def test_loops_of_others_do_not_hold():
     contact = carom.Contact(cohesion=1e3)
     with pytest.raises(carom.InputError, match="bodies of other codes do not hold together"):
         carom.ForeignRun([mass], [floor], time_step=0.1, contact=contact)
-
-
-def test_the_audit_refuses_what_holds(tmp_path):
-    result = run(tmp_path, hanging(2, 20.0, "midpoint"))
-    with pytest.raises(carom.InputError, match="cannot audit surfaces that hold together yet"):
-        carom.audit(result.path)

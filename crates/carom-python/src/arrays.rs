@@ -59,7 +59,7 @@ pub fn table(py: Python<'_>, values: Vec<f64>, width: usize) -> PyResult<Bound<'
 
 /// A state with the energy that each body has yet to give back [J] and its contacts. Of each contact it has the source node (of edges that cross, the
 /// one that takes more). The target is the index of a body, or −1 − that of an obstacle. Then follow the gap where the condition was written, the
-/// normal, and the force on the source node.
+/// normal, the force on the source node, and the adhesion [N] that this is less by than what is in Coulomb's cone: 0 where nothing holds.
 pub fn state<'py, const D: usize>(
     py: Python<'py>,
     model: &Model<D>,
@@ -84,6 +84,8 @@ pub fn state<'py, const D: usize>(
     out.set_item("contact_normal", vectors(py, &normals)?)?;
     let forces: Vec<Vector<D>> = reactions.iter().map(|r| r.contact.frame.tr_mul(&r.force)).collect();
     out.set_item("contact_reaction", vectors(py, &forces)?)?;
+    let adhesions = reactions.iter().map(|r| r.adhesion.unwrap_or(0.0));
+    out.set_item("contact_adhesion", PyArray1::from_iter(py, adhesions))?;
     Ok(out)
 }
 

@@ -101,9 +101,7 @@ def _check(files: Files, findings: Findings) -> None:
     for stage in stages:
         part = stage.part
         RowChecks(part.model, stage.scales, findings, part.rows, part.summary).all()
-        momenta = MomentumChecks(
-            part.model, stage.scales, findings, part.rows, files.summary["contacts"]
-        )
+        momenta = MomentumChecks(part.model, stage.scales, findings, part.rows, files.summary)
         momenta.all()
         leave_rows(
             part.model,

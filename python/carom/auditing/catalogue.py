@@ -11,6 +11,7 @@ CHECKS: dict[str, tuple[str, str]] = {
     # The states at output times.
     "plane": ("fields have no z component", ""),
     "rigid motion": ("nodes of a rigid body are where it has them, and move so", "m"),
+    "reduced shapes": ("a reduced body has the shapes of its surface and of its modes", "m"),
     "tied nodes": ("both sides of a body that repeats itself move alike", "m, m/s"),
     "stress": ("stresses are the law's at the stored displacement", "Pa"),
     "plastic strain": ("what has flowed is the law's, from stored step to stored step", ""),
@@ -36,6 +37,7 @@ CHECKS: dict[str, tuple[str, str]] = {
     "penetration": ("history: no node is deeper in anything than it says", "m"),
     "contact count": ("history: contacts of the step, and none without reactions", ""),
     "normal force": ("history: sum of the normal reactions", "N"),
+    "holding": ("history: contacts that hold", ""),
     "tracked points": ("history: motion of the tracked nodes", "m, m/s"),
     # All rows of the history.
     "row times": ("rows are at ends of nominal steps, in order", "s"),
@@ -135,10 +137,14 @@ CHECKS: dict[str, tuple[str, str]] = {
     "contact gaps": ("stored gaps are those of the auditor's closest points", "m"),
     "contact normals": ("stored normals are those of the auditor's closest points", ""),
     "nodal reactions": ("reactions act on nodes and feet, equal and opposite", "N"),
-    "Signorini: compression": ("r_n ≥ 0", "N"),
-    "Signorini: complementarity": ("w_n r_n = 0", "J"),
-    "Coulomb: cone": ("|r_t| ≤ μ r_n, or in the ellipse of both μ", "N"),
-    "Coulomb: slip": ("μ r_n |w_t| + r_t w_t = 0", "J"),
+    "Signorini: compression": ("r_n ≥ 0, or no less than −A of what holds by A", "N"),
+    "Signorini: complementarity": ("w_n (r_n + A) = 0", "J"),
+    "Coulomb: cone": ("|r_t| ≤ μ (r_n + A), or in the ellipse of both μ", "N"),
+    "Coulomb: slip": ("μ (r_n + A) |w_t| + r_t w_t = 0", "J"),
+    "adhesion": ("contacts hold by what the case says of the area around their nodes", "N"),
+    "adhesion: history": ("what holds did so before, or closed where that lasts", ""),
+    "adhesion: opening": ("what holds no more has opened", "m"),
+    "adhesion: work": ("what opens holds no more: w_n A = 0", "J"),
     "certificate": ("the history's certificate covers the bi-potential gap of the step", "J"),
 }
 """Statement and unit of every check."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator
+from dataclasses import dataclass
 from functools import cached_property, partial
 
 import numpy as np
@@ -14,23 +15,39 @@ from carom.auditing.bodies.places import Attached
 from carom.auditing.contact.interference import Interference
 from carom.auditing.contact.obstacles import AuditObstacle, Cornered, Round, obstacle_of
 from carom.auditing.contact.overlaps import corners_in, crossed, nodes_in, round_in
-from carom.auditing.contact.pairs import ALIKE, Pairs, build_sides
+from carom.auditing.contact.pairs import ALIKE, Pairs, Side, build_sides
 from carom.auditing.drives.loads import Loads
 from carom.auditing.drives.springs import AuditSpring, build_spring
 from carom.auditing.drives.supports import Supports
+from carom.auditing.targets.covering import Covering
 from carom.auditing.targets.curve import Curve
 from carom.auditing.targets.feet import Target
 from carom.auditing.targets.gregory import GregoryPatches
 from carom.auditing.targets.sheet import FlatPatches, Sheet
 from carom.case.analysis import Conserving, Static, Theta
 from carom.case.body import Body, DescribedBody, ReducedBody, RigidBody
-from carom.case.cohesion import holds
 from carom.case.foreign_body import ForeignEntry
 from carom.case.full_stage import FullStage
 from carom.case.scenario import Scenario
 from carom.errors import InputError
 
 CONDITIONS = ("gap", "midpoint", "endpoint", "massless")
+
+
+@dataclass(frozen=True)
+class Begun:
+    """Where a run began.
+
+    Parameters
+    ----------
+    displacement
+        Of all nodes [m], shape [node_count, D].
+    time
+        When [s].
+    """
+
+    displacement: Array
+    time: float
 
 
 class AuditModel:
@@ -67,7 +84,6 @@ class AuditModel:
         *,
         touching_themselves: Collection[str] = (),
     ) -> None:
-        _refuse(scenario)
         self.scenario, self.stage = scenario, stage
         self.dimension = scenario.dimension
         """2 in the plane, 3 in space."""
@@ -77,12 +93,6 @@ class AuditModel:
         condition = self.contact.condition
         if condition not in CONDITIONS:
             raise InputError(f"cannot audit the contact condition {condition!r} yet")
-        discretisations = [
-            self.contact.discretisation,
-            *(pair.discretisation for pair in self.contact.pairs),
-        ]
-        if "mortar" in discretisations:
-            raise InputError("cannot audit mortar contact yet")
         written = [condition]
         if not stage.is_dynamic:
             # Load steps have the weight where steps in time of other stages have it.
@@ -114,16 +124,23 @@ class AuditModel:
         self.loads = [Loads(body, stage.loads) for body in self.bodies]
         """Those of every body."""
         self.springs = [build_spring(spring, self) for spring in scenario.springs]
+        self._coverings: dict[int, Covering] = {}
         self._depths: dict[tuple[int, int], Array] = {}
         self._deepest: dict[tuple[int, int], float] = {}
         self.before: AuditModel | None = None
         """The stage before."""
+        self.begun = Begun(np.zeros_like(points), 0.0)
+        """Where the run began."""
         self.size = max(_diameter(b.points) for b in self.bodies)
 
     def _read_scheme(self) -> None:
         """Take what the analysis says of the scheme."""
         self.static = isinstance(self.analysis, Static)
         """Whether there is no inertia: forces balance at the end of each load step."""
+        self.stabilised = isinstance(self.analysis, Static) and (
+            self.analysis.stabilisation != "none"
+        )
+        """Whether load steps that find no equilibrium go on with inertia to another."""
         # Where there is no velocity the end of a step has all the weight.
         self.conserving, self.theta, self.xi = False, 1.0, 1.0
         if not isinstance(self.analysis, Static):
@@ -132,8 +149,6 @@ class AuditModel:
             self.theta, self.xi = 0.5, 0.5
             if isinstance(scheme, Theta):
                 self.theta, self.xi = scheme.theta, scheme.xi
-        elif self.analysis.stabilisation != "none":
-            raise InputError("cannot audit load steps that are stabilised yet")
 
     @property
     def faceted(self) -> bool:
@@ -208,6 +223,11 @@ class AuditModel:
         return self.connected(body) or self.loaded(body) or self.supported(body)
 
     @property
+    def coheres(self) -> bool:
+        """Whether some pair holds together."""
+        return any(side.holding is not None for side in self.sides)
+
+    @property
     def rubs_by_law(self) -> bool:
         """Whether friction of some pair remembers what happened before a step."""
         return any(side.law.remembers for side in self.sides)
@@ -219,6 +239,21 @@ class AuditModel:
     def interference(self, a: str, b: str) -> Interference:
         """Return by how much the surfaces of two are pushed apart, by their names."""
         return self._pairs.interference(a, b)
+
+    def covering(self, index: int) -> Covering:
+        """Return the boundary of a body as mortar rows are integrated over it."""
+        if index not in self._coverings:
+            body = self.bodies[index]
+            self._coverings[index] = Covering(
+                body.facets, body.points, self.targets[index], revolution=body.revolution
+            )
+        return self._coverings[index]
+
+    def most_contacts(self, side: Side) -> int:
+        """Return how many nodes of a side may touch, or how many multipliers."""
+        if side.mortar:
+            return self.covering(side.source).multiplier_count
+        return len(self.bodies[side.source].sources)
 
     def is_round(self, source: int, target: int) -> bool:
         """Return whether both sides are what they are without their meshes: round, or plain."""
@@ -338,10 +373,12 @@ class AuditModel:
     def _spares_mass(self, entry: DescribedBody, body: AuditBody) -> bool:
         """Return whether a body may have no mass where it touches others.
 
-        What is rigid or reduced may not, nor what flows, grows or rubs by a law, nor where springs
-        or masses are attached to what may touch.
+        What is rigid or reduced may not, nor what flows, grows, rubs by a law or holds on to
+        others, nor where springs or masses are attached to what may touch.
         """
         if isinstance(entry, RigidBody | ReducedBody) or self._pairs.rubs_by_law(entry.name):
+            return False
+        if self._pairs.holds(entry.name):
             return False
         if body.law.flows or body.growth.acts:
             return False
@@ -365,10 +402,11 @@ class AuditModel:
     def gives_back(self) -> bool:
         """Whether friction of a step may give energy back.
 
-        So it may without mass, against velocities at the end of a step, and where landing takes of
-        a reaction and of its friction.
+        So it may without mass, against velocities at the end of a step, where landing takes of a
+        reaction and of its friction, and where bonds slide by as much as iterations leave.
         """
-        return self.massless or self.impacts or self.condition == "midpoint"
+        bonds = any(side.holding is not None and side.holding.unbreakable for side in self.sides)
+        return self.massless or self.impacts or bonds or self.condition == "midpoint"
 
     @property
     def jolts(self) -> bool:
@@ -387,11 +425,3 @@ def _target(body: AuditBody, *, smooth: bool) -> Target:
 def _diameter(points: Array) -> float:
     """Return the diameter of the smallest ball around the mean of all points [m]."""
     return 2.0 * float(np.linalg.norm(points - points.mean(axis=0), axis=1).max())
-
-
-def _refuse(scenario: Scenario) -> None:
-    """Refuse what the auditor has no second implementation of."""
-    if any(map(holds, (scenario.contact.cohesion, *(p.cohesion for p in scenario.contact.pairs)))):
-        raise InputError("cannot audit surfaces that hold together yet")
-    if scenario.output.audit and any(body.kind == "reduced" for body in scenario.bodies):
-        raise InputError("cannot audit the steps of a reduced body yet, as with output.audit")

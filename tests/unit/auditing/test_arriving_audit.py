@@ -45,6 +45,7 @@ def with_a_reaction(force):
                 "contact_gap": [0.01],
                 "contact_normal": [[0.0, 1.0]],
                 "contact_reaction": [[0.0, force]],
+                "contact_adhesion": [0.0],
             }
             for name, values in more.items():
                 del step["end"][name]

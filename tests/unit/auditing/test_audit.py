@@ -348,16 +348,6 @@ def test_a_history_without_a_column_cannot_be_audited(results, tmp_path):
         carom.audit(directory)
 
 
-def test_mortar_contact_is_not_audited(results, tmp_path):
-    directory = tmp_path / "results"
-    shutil.copytree(results("gap", "theta"), directory)
-    case = directory / "case.toml"
-    text = case.read_text(encoding="utf-8")
-    case.write_text(text.replace('discretisation = "node-to-segment"', 'discretisation = "mortar"'))
-    with pytest.raises(InputError, match="cannot audit mortar contact yet"):
-        carom.audit(directory)
-
-
 def test_every_check_is_in_the_documents_and_none_uses_the_core():
     root = Path(__file__).parents[3]
     page = (root / "docs" / "audit.md").read_text(encoding="utf-8")

@@ -203,26 +203,13 @@ def test_bodies_that_are_swapped_in_the_mesh_cannot_be_audited(results):
         carom.audit(results)
 
 
-CANNOT = [
-    (
-        'materials.elastic={kind="j2-plasticity",young=9.0,poisson=0.3,density=1.0,'
-        "yield_stress=1.0}\nbodies.0.initial_stress={xx=1e-3}",
-        "cannot audit the law 'j2-plasticity' yet",
-    ),
-    ("contact.discretisation=mortar", "cannot audit mortar contact yet"),
-    (
-        'analysis={kind="static",end_time=0.02,time_step=2e-3,stabilisation="dynamic"}',
-        "cannot audit load steps that are stabilised yet",
-    ),
-]
-
-
-@pytest.mark.parametrize(("override", "message"), CANNOT)
-def test_what_the_auditor_does_not_know_is_named(results, override, message):
-    (results / "case.toml").write_text(scenario(*override.split("\n")).to_toml(complete=True))
+def test_what_the_auditor_does_not_know_is_named(results):
+    metal = 'kind="j2-plasticity",young=9.0,poisson=0.3,density=1.0,yield_stress=1.0'
+    case = scenario(f"materials.elastic={{{metal}}}", "bodies.0.initial_stress={xx=1e-3}")
+    (results / "case.toml").write_text(case.to_toml(complete=True))
     with pytest.raises(InputError) as caught:
         carom.audit(results)
-    assert str(caught.value) == message
+    assert str(caught.value) == "cannot audit the law 'j2-plasticity' yet"
 
 
 def test_a_report_is_a_file(results):

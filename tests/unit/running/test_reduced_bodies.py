@@ -79,13 +79,6 @@ def test_the_audit_confirms_energies_momenta_and_stresses(run):
     assert checks["angular momentum"].count > 2
 
 
-def test_the_steps_of_a_reduced_body_are_not_audited_yet(tmp_path):
-    audited = case(output=carom.Output(fields_every=0.1, audit=True))
-    result = carom.run(audited, out=tmp_path / "run")
-    with pytest.raises(carom.InputError, match="cannot audit the steps of a reduced body yet"):
-        carom.audit(result.path)
-
-
 def test_the_doctor_says_what_spin_leaves_out():
     findings = [f for f in examine(case()).findings if "is reduced to" in f.what]
     assert [f.level for f in findings] == ["ok"]

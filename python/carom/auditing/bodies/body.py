@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from functools import cached_property
 
 import numpy as np
 
@@ -18,6 +19,7 @@ from carom.auditing.bodies.growing import Growth
 from carom.auditing.bodies.mass import AddedMass, Mass
 from carom.auditing.bodies.moving import MovingBody
 from carom.auditing.bodies.places import Attached, Place, place_on
+from carom.auditing.bodies.vibrations import MOST_UNKNOWNS, Vibrations
 from carom.auditing.materials.composition import Composition
 from carom.auditing.materials.dilatation import MeanDilatation, Response
 from carom.auditing.mesh.cells import Cells
@@ -169,6 +171,37 @@ class AuditBody(MovingBody):
     def weigh_all_nodes(self) -> None:
         """Treat nodes without mass as all others, as where nothing has inertia."""
         self.massless, self.holding = self.massless[:0], self.holding[:0]
+
+    @cached_property
+    def vibrations(self) -> Vibrations:
+        """The shapes in which a reduced body vibrates."""
+        assert self.modes is not None, "it is reduced"
+        count, arms = len(self.points), self.points - self.mass.mean(self.points)
+        if arms.size > MOST_UNKNOWNS:
+            return Vibrations.unknown(arms)
+        units = np.eye(self.dimension * count).reshape(-1, count, self.dimension)
+        return Vibrations.of(
+            mass=np.array([self.mass.times(unit).ravel() for unit in units]),
+            stiffness=np.array([self.linear_force(unit).ravel() for unit in units]),
+            arms=arms,
+            kept=self.surface,
+            modes=self.modes,
+        )
+
+    @property
+    def moves_as_a_whole(self) -> bool:
+        """Whether its equations are those of its momenta, and of amplitudes if it is reduced."""
+        return self.rigid or self.modes is not None
+
+    @property
+    def damping(self) -> float:
+        """That of a reduced body in terms of its stiffness [s]."""
+        return float(self.law.stiffness_damping.max())
+
+    def linear_force(self, u: Array) -> Array:
+        """Return K₀ u [N], with the stiffness where nothing has moved, shape [node_count, D]."""
+        local = einsum("caibk,cbk->cai", self._stiffness, u[self.cells.nodes])
+        return self.cells.assembled(local)
 
     def faces(self, nodes: Indices) -> Facets:
         """Return facets of its boundary by their nodes."""

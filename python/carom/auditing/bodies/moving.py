@@ -127,9 +127,9 @@ class MovingBody:
         """Return v less a rigid motion of the same momenta [m/s]; zero at nodes without mass.
 
         Where something is `held`, shape [node_count, D], only translations are left that supports
-        leave free, and nothing where supports move.
+        leave free, and nothing where supports move. Reduced bodies neither take nor give.
         """
-        if v[held].any():
+        if v[held].any() or self.modes is not None:
             return np.zeros_like(v)
         arms, momenta = self.arms(u), self.mass.times(v)
         drift = self.mass.resultant(momenta) / self.mass.total

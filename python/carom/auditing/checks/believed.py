@@ -100,6 +100,19 @@ def leave_rows(
         *(("friction_defect",) if "friction_defect" in rows.history else ()),
         store="",
     )
+    if model.stabilised:
+        leave(
+            rows.history["retried_steps"] > 0,
+            "steps with inertia from one equilibrium to another, but for their sums",
+            store="",
+        )
+    if model.coheres:
+        leave(
+            unstored,
+            "how many contacts hold in rows without a stored step",
+            "holding",
+            store=EVERY_FRAME,
+        )
     if model.blended:
         leave(unstored, "blends of rows without a stored step", "blend", store=EVERY_FRAME)
     leave(

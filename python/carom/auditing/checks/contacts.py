@@ -10,6 +10,7 @@ import numpy as np
 
 from carom.auditing.arrays import Array, einsum, sizes
 from carom.auditing.bodies.body import AuditBody
+from carom.auditing.checks.holding import HoldingChecks
 from carom.auditing.mesh.facets import grouped
 from carom.auditing.model import AuditModel
 from carom.auditing.report import Findings
@@ -35,6 +36,7 @@ class ContactChecks:
         self._model, self._scales, self._findings = model, scales, findings
         self._check = findings.check
         self.sliding = Sliding(model, scales)
+        self._holding = HoldingChecks(model, scales, findings)
         self._facet = min(_shortest(body) for body in model.bodies)
 
     def step(self, step: Step, where: str) -> tuple[float, float]:
@@ -55,6 +57,8 @@ class ContactChecks:
             self._places(first, step.start, step, where)
             force = (first.normal_force, first.friction_force)
             self._cone(first, step, force, first.most_friction, where)
+        if self._model.coheres:
+            self._holding.step(step, ruled, self.turn(step), where)
         return self._laws(step, ruled, friction, where)
 
     def turn(self, step: Step) -> float:
@@ -88,11 +92,11 @@ class ContactChecks:
 
         Forces have the shapes [count] and [count, D], coefficients [count, 2].
         """
-        total = float(np.abs(found.reaction).sum())
-        size = np.linalg.norm(found.reaction, axis=1)
+        size = np.linalg.norm(found.reaction, axis=1) + found.adhesion
+        total = float(np.abs(found.reaction).sum() + found.adhesion.sum())
         off = size * self.turn(step) + self._scales.reaction(step, total)
         off += self._scales.least_reaction(step.dt)
-        normal, across = force
+        normal, across = force[0] + found.adhesion, force[1]
         self._check("Signorini: compression", np.maximum(-normal, 0.0), off, where)
         bounded = np.asarray(np.isfinite(friction).all(axis=1), dtype=bool)
         cone = found.cone(np.where(bounded[:, None], friction, 0.0))
@@ -105,21 +109,23 @@ class ContactChecks:
         self, step: Step, ruled: Ruled, friction: Coefficients, where: str
     ) -> tuple[float, float]:
         found = step.touching.pressed
-        signorini = ruled.normal * found.normal_force
-        off = np.linalg.norm(found.reaction, axis=1) * self._scales.geometry(step)
+        signorini = ruled.normal * found.force_in_cone
+        size = np.linalg.norm(found.reaction, axis=1) + found.adhesion
+        off = size * self._scales.geometry(step)
         # A reaction that is round-off is one beside an open gap, too.
         rough = np.abs(ruled.normal) * self._scales.least_reaction(step.dt)
         self._check("Signorini: complementarity", signorini, off + rough, where)
         # Where a reaction is small, the solver's tolerance of it counts for more.
         slip = sizes(found.relative(step.d, found.shift)[1])
-        off += slip * self._scales.reaction(step, float(np.abs(found.reaction).sum()))
+        total = float(np.abs(found.reaction).sum() + found.adhesion.sum())
+        off += slip * self._scales.reaction(step, total)
         work = einsum("ki,ki->k", found.friction_force, ruled.across)
         cone = found.cone(friction.least)
-        coulomb = cone.largest * found.normal_force * cone.slip(ruled.across) + work
+        coulomb = cone.largest * found.force_in_cone * cone.slip(ruled.across) + work
         # Where μ is only bounded, friction takes no less than the least of it, and the cone says
         # that it takes no more.
         coulomb = np.where(friction.fixed, coulomb, np.maximum(coulomb, 0.0))
-        pressed = np.maximum(found.normal_force, 0.0)
+        pressed = np.maximum(found.force_in_cone, 0.0)
         doubt = friction.doubt.max(axis=1) * pressed * sizes(ruled.across)
         self._check("Coulomb: slip", coulomb, off * (1 + cone.largest) + doubt, where)
         by_law = ~friction.fixed

@@ -96,6 +96,8 @@ class EventChecks:
         self._model = model
         self._massless = any(model.massless for model in self._models)
         self._jolts = any(model.jolts for model in self._models)
+        self._coheres = any(model.coheres for model in self._models)
+        """Whether pairs may pull: they have books, but no event while they do not press."""
         self._check, self._leave = findings.check, findings.leave
         self._rows = rows
         named = {f"{a}|{b}": frozenset((a, b)) for a, b in model.pairs()}
@@ -145,7 +147,8 @@ class EventChecks:
         """Check everything."""
         strangers = [float(not event.pair) for event in self._events]
         self._check("events: pairs", strangers, 0.0, "events of pairs that have not touched")
-        without = [float(not self._of(pair)) for pair in self._pairs]
+        silent = () if self._coheres else self._pairs
+        without = [float(not self._of(pair)) for pair in silent]
         self._check("events: pairs", without, 0.0, "pairs that have touched without an event")
         if any(strangers) or any(without):
             return
@@ -159,7 +162,8 @@ class EventChecks:
                 self._times(event, first=event is events[0], last=event is events[-1])
                 self._peak(event)
             self._pauses(pair, events)
-            self._work(pair, events)
+            if events:
+                self._work(pair, events)
 
     def _padded(self, values: Array) -> Array:
         """Return a column of a pair at all rows, 0 before it touched."""
@@ -177,7 +181,9 @@ class EventChecks:
         """Check that the forces of rows are those of the pairs in whose events they are."""
         rows, total = self._rows, self._pressing.total
         alone = np.array([float(not claims) for claims in self._claims])
-        self._check("events: force", total * alone, 0.0, "force without an event")
+        # What pulls has none.
+        pressed = np.maximum(total, 0.0) if self._coheres else total
+        self._check("events: force", pressed * alone, 0.0, "force without an event")
         for row in np.flatnonzero(total > 0):
             where = f"t = {rows.times[row]:g} s"
             bounds = self._pressing.apart(int(row), self._claims[row])
@@ -185,7 +191,8 @@ class EventChecks:
             low = sum(bound[0] for bound in bounds.values())
             high = sum(min(bound[1], peaks[name]) for name, bound in bounds.items())
             off = (PRESSED + TURNED * self._jolts) * total[row]
-            self._check("events: force", max(low - total[row], 0.0), off, where)
+            if not self._coheres:
+                self._check("events: force", max(low - total[row], 0.0), off, where)
             self._check("events: force", max(total[row] - high, 0.0), off, where)
             self.known[row] = high - low <= PINNED * total[row]
 
@@ -201,13 +208,17 @@ class EventChecks:
         others = set(self._claims[row]) - {pair}
         if not others:
             return True
-        if self._rows.single[row] and self._rubs[pair][row] and not self._massless:
+        rubs = self._rows.single[row] and self._rubs[pair][row]
+        if rubs and not (self._massless or self._coheres):
             return True
         return self._pressing.bounds(row, [*others, pair])[pair][0] > 0
 
     def _cannot(self, pair: str, row: int) -> bool:
         """Return whether the pair cannot have pressed at a row, or with less than can be told."""
         total = float(self._pressing.total[row])
+        if self._coheres:
+            bounds = self._pressing.bounds(row, [*self._claims[row], pair])
+            return bounds[pair][1] <= PINNED * max(total, 0.0)
         if total <= 0:
             return True
         if self._rubs[pair][row]:
@@ -225,7 +236,7 @@ class EventChecks:
         differ = event.has_impact > (ended and not at_rest)
         differ = differ or (ended and not some and not event.has_impact)
         check("events: times", float(differ), 0.0, f"{at}, impacts are of contacts that have ended")
-        if first:
+        if first and not self._coheres:
             touch = self._first[event.pair]
             before = rows.times[touch - 1] if touch else -np.inf
             off = max(event.onset - rows.times[touch], before - event.onset, 0.0)
@@ -279,7 +290,7 @@ class EventChecks:
         row = self._rows.at(event.onset)
         if row is None or not self._rows.single[row]:
             return False
-        if first and row == self._first[event.pair]:
+        if first and row == self._first[event.pair] and not self._coheres:
             return True
         return self._presses(event.pair, row) and self._cannot(event.pair, row - 1)
 
@@ -353,7 +364,7 @@ class EventChecks:
             longest = max((p for p in pauses if p > slack), default=0.0)
             at = f"{pair}, event {event.index}"
             self._check("events: times", max(longest - merge, 0.0), slack, f"{at}, pause")
-        if not self._massless:
+        if not (self._massless or self._coheres):
             # What a pair did between two rows, it did in an event.
             for row in np.flatnonzero(self._rubs[pair])[1:]:
                 # A load step has a part of what pressed at its start.
@@ -369,7 +380,9 @@ class EventChecks:
         friction = self._friction[pair]
         size = float(np.abs(friction).max())
         off = SAFETY * ROUND_OFF * max(size, self._scales.energy * ROUND_OFF)
-        starts = [(0.0, 0.0), *(self._before(pair, event) for event in events[1:])]
+        starts = [self._before(pair, event) for event in events]
+        if not self._coheres:
+            starts[0] = (0.0, 0.0)
         ends = [*starts[1:], (float(friction[-1]), float(friction[-1]))]
         for event, start, end in zip(events, starts, ends, strict=True):
             low, high = end[0] - start[1], end[1] - start[0]
@@ -390,4 +403,7 @@ class EventChecks:
         if not 0 < row < len(rows):
             return (-np.inf, np.inf)
         before, after = float(friction[row - 1]), float(friction[row])
-        return (before, before) if rows.single[row] else (min(before, after), max(before, after))
+        if rows.single[row]:
+            return before, before
+        # What holds slides by round-off, whose work is of either sign.
+        return (-np.inf, np.inf) if self._coheres else (min(before, after), max(before, after))

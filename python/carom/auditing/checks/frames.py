@@ -9,6 +9,7 @@ import numpy as np
 from carom.auditing.arrays import AXES, Array, components, turning_axes, turning_components
 from carom.auditing.bodies.body import AuditBody
 from carom.auditing.bodies.moving import KINETIC_PARTS
+from carom.auditing.bodies.reduced_step import unshaped
 from carom.auditing.bodies.rigid import bent
 from carom.auditing.model import AuditModel
 from carom.auditing.records.files import Frame
@@ -51,6 +52,13 @@ class FrameChecks:
                     self._check(
                         "tied nodes", mine - mine[body.masters], 0.0, f"{body.name}, {where}"
                     )
+            if body.modes is not None:
+                u = frame.displacement[body.span]
+                beside, off = unshaped(body, u)
+                off += self._round_off_of_places()
+                self._check("reduced shapes", beside, off, f"{body.name}, {where}")
+                if body.vibrations.doubt:
+                    self._findings.leave(f"vibrations of {body.name!r}: {body.vibrations.doubt}")
             if body.rigid:
                 bending = bent(body, frame.displacement[body.span])
                 self._check(
@@ -84,7 +92,8 @@ class FrameChecks:
             # A run that goes on from another starts with reactions of no step of its own.
             counted = row["contacts"] > 0
             most = most_uncounted(self._model, self._scales, row["shortest_step"])
-            wrong = pressed == 0.0 if counted else pressed > most
+            # What holds is counted even where it bears nothing.
+            wrong = pressed == 0.0 and not self._model.coheres if counted else pressed > most
             self._check("contact count", float(wrong), 0.0, where)
         self._tracks(frame, row, where)
 
@@ -125,7 +134,7 @@ class FrameChecks:
             one_sided = [
                 gap
                 for gap, side in zip(gaps, model.sides, strict=True)
-                if not side.two_sided and (side.massless or not model.mixed)
+                if side.ruled_by_gaps and (side.massless or not model.mixed)
             ]
             for gap in one_sided:
                 self._check("no penetration", max(-gap, 0.0), allowed, where)

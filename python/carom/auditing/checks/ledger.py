@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from carom.auditing.arrays import AXES, Array
+from carom.auditing.checks.pushes import beyond_pushes
 from carom.auditing.model import AuditModel
 from carom.auditing.records.files import Frame
 from carom.auditing.report import Findings
@@ -152,7 +153,8 @@ class LedgerChecks:
                 self._check("books: external", nothing, 0.0, f"{body.name}, no springs")
             work = (centre - centre[0]) @ weight
             if not model.loaded(body) and not self._gives:
-                self._check("books: external", entry["external"] - work, off, body.name)
+                error = beyond_pushes(model, h, entry["external"] - work)
+                self._check("books: external", error, off, body.name)
         rubs = not model.gives_back or self._summary["least_friction"] >= 0
         for name, entry in self._touched.items():
             if rubs:

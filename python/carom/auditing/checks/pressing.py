@@ -93,6 +93,9 @@ class Pressing:
     def bounds(self, row: int, active: Iterable[str]) -> dict[str, tuple[float, float]]:
         """Return for the pairs that may press at a row how hard, at least and at most [N]."""
         total = float(self.total[row])
+        if self._model.coheres:
+            # Other pairs may pull, whatever the row says of the sum.
+            return self.apart(row, active)
         off = PRESSED * total
         found = {name: (a, min(b, total)) for name, (a, b) in self.apart(row, active).items()}
         low, high = (sum(bound[side] for bound in found.values()) for side in (0, 1))
@@ -106,10 +109,15 @@ class Pressing:
         names = list(active)
         stored = self._stored.get(float(self._rows.times[row]))
         if stored is not None:
-            off = PRESSED * float(self.total[row])
+            off = PRESSED * abs(float(self.total[row]))
             forces = {name: stored.get(self._pairs[name], 0.0) for name in names}
-            return {name: (max(f - off, 0.0), f + off) for name, f in forces.items()}
-        found = dict.fromkeys(names, (0.0, np.inf))
+            least = -np.inf if self._model.coheres else 0.0
+            return {name: (max(f - off, least), f + off) for name, f in forces.items()}
+        if self._model.coheres and len(self._pairs) == 1:
+            total = float(self.total[row])
+            off = PRESSED * abs(total)
+            return dict.fromkeys(names, (total - off, total + off))
+        found = dict.fromkeys(names, (-np.inf if self._model.coheres else 0.0, np.inf))
         for name, (force, error) in self.resultants(row, names).items():
             found[name] = self._normal_part(name, force, error)
         return found
@@ -153,7 +161,11 @@ class Pressing:
         normals = [self._normals[name] for name in self._pairs[pair] if name in self._normals]
         if normals:
             normal = float(force @ normals[0])
+            if self._model.coheres:
+                return normal - error, normal + error
             return max(normal - error, 0.0), max(normal, 0.0) + error
+        if self._model.coheres:
+            return -np.inf, np.inf
         friction = max(
             (
                 side.law.most

@@ -12,6 +12,7 @@ from carom.auditing.arrays import AXES, Array
 from carom.auditing.bodies.body import AuditBody
 from carom.auditing.bodies.moving import KINETIC_PARTS
 from carom.auditing.checks.blend import LARGEST_BLEND
+from carom.auditing.checks.pushes import beyond_pushes
 from carom.auditing.model import AuditModel
 from carom.auditing.records.parts import OF_STEPS, SUMS
 from carom.auditing.records.rows import GRID, Rows
@@ -145,7 +146,8 @@ class RowChecks:
         if model.stage.velocities:
             self._findings.leave("the work of giving bodies velocities when a stage starts")
         elif not loaded:
-            self._check("row: external", h["external"] - external, off)
+            error = beyond_pushes(model, h, h["external"] - external)
+            self._check("row: external", error, off)
         stored = self._rows.momentum
         off = SAFETY * ROUND_OFF * scales.mass * scales.speed
         self._check("row: momentum", np.abs(stored - momentum).max(axis=1), off)
@@ -236,13 +238,16 @@ class RowChecks:
     def _signs(self) -> None:
         h = self._history
         for name in OF_STEPS:
-            self._check("row: signs", np.maximum(-h[name], 0.0), 0.0)
+            if not (name == "normal_force" and self._model.coheres):
+                self._check("row: signs", np.maximum(-h[name], 0.0), 0.0)
             self._findings.check("row: signs", h[name][0], 0.0, f"{name} before the first step")
         for name in ("contacts", "retried_steps"):
             self._check("row: signs", h[name] % 1.0, 0.0)
-        self._check(
-            "row: signs", ((h["contacts"] > 0) != (h["normal_force"] > 0)).astype(float), 0.0
-        )
+        if self._model.coheres:
+            self._holding()
+        else:
+            pressed = h["normal_force"] > 0
+            self._check("row: signs", ((h["contacts"] > 0) != pressed).astype(float), 0.0)
         limit = LARGEST_BLEND if self._model.blended else 0.0
         self._check("row: signs", np.maximum(h["blend"] - limit, 0.0), 0.0)
         flows = any(body.law.flows for body in self._model.bodies)
@@ -255,7 +260,7 @@ class RowChecks:
         ):
             if not may_be:
                 self._check("row: signs", h[name], 0.0)
-        most = sum(len(self._model.bodies[side.source].sources) for side in self._model.sides)
+        most = sum(self._model.most_contacts(side) for side in self._model.sides)
         most += self._model.corner_count * len(self._model.bodies)
         self._check("row: signs", np.maximum(h["contacts"] - most, 0.0), 0.0)
         self._check("row: signs", np.maximum(-h["penetration"], 0.0), 0.0)
@@ -266,8 +271,8 @@ class RowChecks:
             float(h["residual"].max()),
             "",
         )
-        two_sided = any(side.two_sided for side in self._model.sides) or self._model.mixed
-        if self._model.condition in ("gap", "massless") and self._model.sides and not two_sided:
+        let_in = not all(side.ruled_by_gaps for side in self._model.sides) or self._model.mixed
+        if self._model.condition in ("gap", "massless") and self._model.sides and not let_in:
             off = self._scales.penetration()
             # What a stage starts with is of the one before.
             own = self._times > self._start if self._model.before else np.isfinite(self._times)
@@ -277,11 +282,28 @@ class RowChecks:
                 open_gap = np.where(h["normal_force"] > 0, h["min_gap"], 0.0)
                 self._check("row: penetration", np.maximum(open_gap, 0.0), off)
 
+    def _holding(self) -> None:
+        """Check how many contacts hold: none that is not counted, and no more than before.
+
+        Where it lasts contacts that close hold from then on.
+        """
+        h = self._history
+        holding, contacts = h["holding"], h["contacts"]
+        self._check("holding", holding % 1.0, 0.0)
+        self._check("holding", np.maximum(-holding, 0.0), 0.0)
+        self._check("holding", np.maximum(holding - contacts, 0.0)[1:], 0.0)
+        self._check("row: signs", ((contacts == 0) & (h["normal_force"] != 0)).astype(float), 0.0)
+        held = [side.holding for side in self._model.sides if side.holding is not None]
+        if not any(holding.lasting for holding in held):
+            self._check("holding", np.maximum(np.diff(holding), 0.0), 0.0)
+
     def _lengths(self) -> None:
         """Check the shortest steps: those of the times, or of as many halves as there may be."""
         h = self._history
         # A step that fails is halved, but for the one that a run fails with.
-        longest = np.where(h["retried_steps"] > 0, 0.5, 1.0) * self._dt
+        # Stabilised ones that are not halved go on with inertia at once.
+        halves = self._model.analysis.max_halvings > 0
+        longest = np.where((h["retried_steps"] > 0) & halves, 0.5, 1.0) * self._dt
         if self._summary["status"] == "failed":
             longest[-1] = self._dt
         off = SAFETY * EPS * self._end

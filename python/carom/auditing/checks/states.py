@@ -12,6 +12,7 @@ from carom.auditing.checks.frames import FrameChecks
 from carom.auditing.checks.ledger import LedgerChecks
 from carom.auditing.checks.steps import StepChecks
 from carom.auditing.checks.surface import SurfaceChecks
+from carom.auditing.model import Begun
 from carom.auditing.records.files import Files, Frame
 from carom.auditing.records.parts import Part
 from carom.auditing.report import Findings
@@ -47,6 +48,9 @@ class StageChecks:
 
     def begin(self, frame: Frame, before: StageChecks | None) -> None:
         """Take the frame that the stage starts with."""
+        self.model.begun = (
+            Begun(frame.displacement, frame.time) if before is None else before.model.begun
+        )
         for index, (body, supports) in enumerate(
             zip(self.model.bodies, self.model.supports, strict=True)
         ):
@@ -166,16 +170,20 @@ class StateChecks:
         given = np.zeros(len(frame.velocity), dtype=bool)
         if step is not None:
             given = check_given(stage.model, step, before, stage.scales, findings)
-        check_links(step, frame, before, status, findings, given=given)
+        read = np.zeros(len(given), dtype=bool)
+        for body in stage.model.bodies:
+            read[body.span] = body.modes is not None
+        check_links(step, frame, before, status, findings, given=given, read=read)
         if step is None:
             return
         checked = Step(stage.model, step)
         stage.steps.step(checked)
-        if not given.any():
+        if not (given.any() or checked.settles):
             stage.ledger.step(checked)
         self._surface.borne(checked.touching.all, frame, stage.steps.turn(checked))
         row = self._row(frame.time)
         if row is not None:
             # What bodies are given is of the step in the rows, too.
-            start = None if given.any() else self._row(float(checked.start["time"]))
+            alone = not (given.any() or checked.settles)
+            start = self._row(float(checked.start["time"])) if alone else None
             stage.steps.rows(checked, start, row)

@@ -8,6 +8,7 @@ import numpy as np
 
 from carom.auditing.arrays import AXES, Array, cross
 from carom.auditing.bodies.body import AuditBody
+from carom.auditing.bodies.rigid import RigidStep
 from carom.auditing.checks.blend import BlendChecks
 from carom.auditing.checks.contacts import ContactChecks
 from carom.auditing.drives.guides import Guide
@@ -64,9 +65,9 @@ class StepChecks:
             at = f"{body.name}, {where}"
             self._motion(step, index, at)
             self._supports(step, index, at)
-            if body.rigid:
-                # Its equation of motion is that of its momenta.
-                self._rigid(step, index, at)
+            if body.moves_as_a_whole:
+                # Its equation of motion is that of its momenta, and of amplitudes.
+                self._whole(step, index, at)
             else:
                 self._impulse(step, index, contact[body.span], at)
         self._ledger(step, where)
@@ -90,10 +91,15 @@ class StepChecks:
         force = found.normal_force
         off += float(np.abs(force[perhaps & ~surely]).sum())
         self._check("normal force", after["normal_force"] - force[~surely].sum(), off, where)
+        if self._model.coheres:
+            held = int((found.adhesion > 0.0).sum())
+            self._check("holding", after["holding"] - held, 0.0, where)
         gap, doubt = self._gap
-        off = float(np.abs(found.reaction).sum()) * self._scales.geometry(step) + doubt
+        total = float(np.abs(found.reaction).sum() + found.adhesion.sum())
+        off = total * self._scales.geometry(step) + doubt
         self._check("certificate", max(gap - after["certificate"], 0.0), off, where)
-        for name, node in self._model.tracks():
+        # Where time stands still nothing has a mean velocity.
+        for name, node in () if step.settles else self._model.tracks():
             stored = [after[f"{name}.vmid_{axis}"] for axis in AXES[: self._model.dimension]]
             rate = EPS * (self._scales.reach + self._model.size) / step.dt
             off = SAFETY * (rate + EPS * step.time / step.dt * self._scales.speed)
@@ -161,7 +167,7 @@ class StepChecks:
                 # Means over the body, and what is no vibration, have the round-off of all of it.
                 off[body.span] += 4 * EPS * np.abs(step.v1[body.span]).max()
                 off[body.span] += 4 * off[body.span].max(axis=0)
-            if body.rigid:
+            if body.moves_as_a_whole:
                 # Its velocities are those of its momenta, its motion that of the iterations.
                 off[body.span] += self._scales.displacement(step) * rate
         change = step.v1 - step.v_scheme
@@ -172,10 +178,12 @@ class StepChecks:
         # What impulses in contacts make of velocities: M Δv = p, whatever M⁻¹ is.
         turn = self._contacts.turn(step)
         for body in self._model.bodies:
+            if body.modes is not None and body.vibrations.doubt:
+                continue
             mass = body.mass
             impulse = step.touching.impulse(body)
-            if body.rigid:
-                impulse = step.rigid(body).borne(impulse)
+            if body.moves_as_a_whole:
+                impulse = step.whole(body).borne(impulse)
             error = body.folded(mass.times(change[body.span]) - impulse)
             # What is held keeps its velocity, and supports see to it.
             if not body.rigid:
@@ -237,12 +245,13 @@ class StepChecks:
         self._check("supports", step.dt * speed[guiding.along], off, f"{at}, velocity")
         self._check("supports", step.dt * spin[guiding.about], off, f"{at}, spin")
 
-    def _rigid(self, step: Step, index: int, at: str) -> None:
-        """Check that nodes move as one, and both momenta change by what acts."""
+    def _whole(self, step: Step, index: int, at: str) -> None:
+        """Check that nodes of a rigid body move as one, and both momenta change by what acts."""
         body = self._model.bodies[index]
-        motion = step.rigid(body)
-        off = self._scales.displacement(step)
-        self._check("rigid motion", motion.bending(step.d[body.span]), off, at)
+        motion = step.whole(body)
+        if isinstance(motion, RigidStep):
+            off = self._scales.displacement(step)
+            self._check("rigid motion", motion.bending(step.d[body.span]), off, at)
         residual, forces = step.forces.residual(index), self._scales.force(step, index)
         self._check("impulse", step.dt * residual.sum(axis=0), step.dt * forces.sum(), at)
         arms = motion.arms[1]

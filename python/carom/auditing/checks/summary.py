@@ -102,7 +102,7 @@ class SummaryChecks:
         ruled = all(model.condition in ("gap", "massless") for model in self._models)
         if ruled and self._model.sides:
             mixed = any(model.mixed for model in self._models)
-            one_sided = not (mixed or any(side.two_sided for side in self._model.sides))
+            one_sided = not mixed and all(side.ruled_by_gaps for side in self._model.sides)
             depth = -number(summary["min_gap"]) if summary["min_gap"] is not None else 0.0
             if one_sided:
                 allowed = self._scales.penetration()

@@ -132,8 +132,10 @@ class SurfaceChecks:
             # Bodies that touch one another both bear what they press with.
             whole, force = float((pressure * self._area).sum()), row["normal_force"]
             most = force * (2.0 if any(side.target >= 0 for side in self._model.sides) else 1.0)
+            if self._model.coheres:
+                most = np.inf  # What pulls takes from the sum, and is no pressure.
             error = max(force - whole, whole - most, 0.0)
-            off = ROUND_OFF * (force + size * float(self._area.sum()))
+            off = ROUND_OFF * (abs(force) + size * float(self._area.sum()))
             off += self._scales.least_reaction(self._model.analysis.time_step)
             self._check("surface: pressure", error, off, f"{where}, in sum")
 
@@ -158,7 +160,9 @@ class SurfaceChecks:
         mine, off = np.zeros(len(self._area)), np.zeros(len(self._area))
         turn = SAFETY * EPS * (self._model.size + self._scales.reach) / float(length.min())
         for k in range(len(contacts)):
+            # What pulls is no pressure.
             force, normal = float(contacts.normal_force[k]), contacts.normal[k]
+            force = max(force, 0.0) if contacts.adhesion[k] > 0.0 else force
             loads = [(node, share, normal) for node, share in contacts.borne(k)]
             loads += [(node, share, -normal) for node, share in contacts.passed_on(k)]
             for node, share, towards in loads:

@@ -11,8 +11,10 @@ import numpy as np
 from carom.auditing.bodies.body import AuditBody
 from carom.auditing.contact.friction import Law
 from carom.auditing.contact.grain import Grain
+from carom.auditing.contact.holding import Holding
 from carom.auditing.contact.interference import Interference
 from carom.case.body import Body
+from carom.case.cohesion import holds
 from carom.case.contact import Pair
 from carom.case.full_stage import FullStage
 from carom.case.scenario import Scenario
@@ -43,6 +45,10 @@ class Side:
         By how much their surfaces are pushed apart.
     grain
         The direction that friction depends on; None where it is the same in all.
+    holding
+        What holds them together; None where nothing does.
+    mortar
+        Whether gaps are means under multipliers of the source.
     """
 
     source: int
@@ -53,6 +59,17 @@ class Side:
     massless: bool = False
     interference: Interference = field(default_factory=Interference)
     grain: Grain | None = None
+    holding: Holding | None = None
+    mortar: bool = False
+
+    @property
+    def ruled_by_gaps(self) -> bool:
+        """Whether no node is let in where gaps are ruled.
+
+        What is checked from both sides may keep a penetration, and means of gaps say nothing of
+        single nodes.
+        """
+        return not (self.two_sided or self.mortar)
 
 
 class Pairs:
@@ -125,6 +142,26 @@ class Pairs:
         own = None if entry is None else entry.restitution
         return self._contact.restitution or 0.0 if own is None else own
 
+    def holding(self, a: str, b: str) -> Holding | None:
+        """Return what holds two together."""
+        entry = self.of(a, b)
+        own = None if entry is None else entry.cohesion
+        return None if a == b else Holding.of(self._contact.cohesion if own is None else own)
+
+    def holds(self, name: str) -> bool:
+        """Return whether a body holds on to something, or would if it were there."""
+        given = [self._contact.cohesion]
+        given += [entry.cohesion for entry in self._contact.pairs if name in entry.between]
+        return any(map(holds, given))
+
+    def is_mortar(self, a: str, b: str) -> bool:
+        """Return whether gaps of two are means; obstacles are checked node by node."""
+        entry = self.of(a, b)
+        own = None if entry is None else entry.discretisation
+        bodies = {body.name for body in self._scenario.bodies}
+        of_two = a != b and {a, b} <= bodies
+        return of_two and (own or self._contact.discretisation) == "mortar"
+
     def interference(self, a: str, b: str) -> Interference:
         """Return by how much the surfaces of two are pushed apart."""
         end, static = self._stage.end_time, not self._stage.is_dynamic
@@ -134,8 +171,10 @@ class Pairs:
         """Return whose nodes are checked, and whether that is seen from the second."""
         entry = self.of(a, b)
         if entry is None or entry.sources is None:
-            # The auditor has no mortar rows, of which one side has the multipliers.
-            return self._contact.sources or "both", False
+            # What holds, and multipliers, are on one side.
+            one_sided = self.is_mortar(a, b) or self.holding(a, b) is not None
+            usual = "finer" if one_sided else "both"
+            return self._contact.sources or usual, False
         return entry.sources, entry.between[0] == b
 
 
@@ -156,6 +195,8 @@ def build_sides(pairs: Pairs, bodies: Sequence[AuditBody], *, impacts: bool) -> 
             restitution=pairs.restitution(first, second) if ruled else None,
             massless=any(len(body.massless) > 0 for body in met),
             interference=pairs.interference(first, second),
+            holding=pairs.holding(first, second),
+            mortar=pairs.is_mortar(first, second),
         )
         if b < 0:
             yield make(a, b, two_sided=False)

@@ -43,6 +43,9 @@ class Rows:
             since = np.diff(self.times, prepend=model.stage.start_time)
             shortest = (1.0 - GRID) * np.minimum(self.dt, since)
             self.steps[history["shortest_step"] < shortest] = np.nan
+        if model.stabilised:
+            # Nor how many steps with inertia it took where load steps failed.
+            self.steps[history["retried_steps"] > 0] = np.nan
         if model.stage.velocities:
             # Nothing says of the row before what bodies were given after it.
             self.steps[1:2] = np.nan

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from carom.auditing.arrays import Array, Mask, turned
-from carom.auditing.bodies.body import AuditBody
+from carom.auditing.arrays import Array, Mask
 from carom.auditing.model import AuditModel
+from carom.auditing.steps.mobility import mobilities
 from carom.auditing.steps.scales import Scales
 from carom.auditing.steps.step import Step
 
@@ -25,7 +25,9 @@ def arriving(step: Step, scales: Scales) -> tuple[Mask, Mask]:
     none = np.zeros(len(found), dtype=bool)
     if model.static or not (model.condition == "midpoint" or model.mixed):
         return none, none
-    ruled, gap, off = ~found.massless, step.touching.start_gaps, scales.geometry(step)
+    # What holds is closed as it is, and has nothing to land on.
+    ruled = ~found.massless & (found.adhesion == 0.0)
+    gap, off = step.touching.start_gaps, scales.geometry(step)
     whole = LANDED * _masses(step) / (model.theta * step.dt)
     impulse = step.dt * found.normal_force
     doubt = step.dt * scales.least_reaction(step.dt)
@@ -40,30 +42,12 @@ def _masses(step: Step) -> Array:
     found, model = step.touching.pressed, step.model
     mobility = np.zeros(len(model.points))
     for body in model.bodies:
-        mobility[body.span] = _mobility(step, body)
+        mobility[body.span] = mobilities(step, body)
     # Nodes may be in a stencil twice; images are what their masters are.
     yields = np.zeros(len(found))
     for nodes, weights in ((found.sources, found.shares), (found.followed, found.weights)):
         yields += (weights**2 * mobility[nodes]).sum(axis=1)
     return 1.0 / np.where(yields > 0.0, yields, np.inf)
-
-
-def _mobility(step: Step, body: AuditBody) -> Array:
-    """Return by how much an impulse on each node alone moves it [1/kg], shape [node_count]."""
-    if not body.rigid:
-        mass = body.folded(body.mass.nodal)[body.masters]
-        return np.where(mass > 0.0, 1.0 / np.where(mass > 0.0, mass, 1.0), 0.0)
-    # In the mean over the directions, as drawn.
-    guiding, arms = step.rigid(body).guiding, body.arms(0.0 * body.points)
-    mobility = np.full(len(arms), float((~guiding.along).sum()) / body.mass.total)
-    about = np.flatnonzero(~guiding.about)
-    if len(about):
-        inertia = body.inertia(0.0 * body.points)
-        inverse = np.linalg.inv(inertia[np.ix_(about, about)])
-        axes = np.eye(len(inertia))[about]
-        fields = np.stack([turned(arms, axis) for axis in axes])
-        mobility += np.einsum("ani,ab,bni->n", fields, inverse, fields)
-    return mobility / body.dimension
 
 
 def most_uncounted(model: AuditModel, scales: Scales, dt: float) -> float:

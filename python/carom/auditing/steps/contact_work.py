@@ -114,8 +114,8 @@ class Works:
         forces = landing.nodal_forces(len(states.model.points))
         for index, body in enumerate(states.model.bodies):
             impulse = states.dt * forces[body.span]
-            if body.rigid:
-                landed[body.span] += states.rigid(body).accelerated(impulse)
+            if body.moves_as_a_whole:
+                landed[body.span] += states.whole(body).accelerated(impulse)
             else:
                 held = states.model.supports[index].held
                 landed[body.span] += body.accelerated(impulse, held)

@@ -7,10 +7,10 @@ from dataclasses import dataclass, fields, replace
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-from carom.auditing.arrays import Array, Indices, einsum
+from carom.auditing.arrays import Array, Indices, Mask, einsum
 from carom.auditing.contact.friction import Law
+from carom.auditing.contact.holding import OF_BONDS
 from carom.auditing.contact.pairs import Side
 from carom.auditing.model import AuditModel
 from carom.auditing.steps.ellipse import Ellipse
@@ -18,9 +18,9 @@ from carom.auditing.steps.ellipse import Ellipse
 BEARS = 0.5
 """Facets bear a contact at their node that face it at least this well, relative to the best."""
 
-AT_NODE, AT_EDGES, BEFORE_ROUND, AT_CORNER = range(4)
-"""Where contacts are: at a node, where edges cross, on a facet or edge before what is round, or on
-a facet at a corner of an obstacle."""
+AT_NODE, AT_EDGES, BEFORE_ROUND, AT_CORNER, AT_MULTIPLIER = range(5)
+"""Where contacts are: at a node, where edges cross, on a facet or edge before what is round, on a
+facet at a corner of an obstacle, or in the mean under the multiplier of a node."""
 
 
 @dataclass(frozen=True)
@@ -37,6 +37,9 @@ class Contacts:
         Body of the node; index of a body, or −1 − that of an obstacle; shape [count].
     reaction
         Force on the source [N], shape [count, D].
+    adhesion
+        What it is less by along the normal than what is in Coulomb's cone [N], shape [count]; zero
+        of what does not hold.
     gap, normal
         By the auditor's closest point, less the interference [m], shape [count] and [count, D].
     sources, shares
@@ -44,7 +47,10 @@ class Contacts:
     followed, weights
         Nodes that the foot follows, and how much, shape [count, n]; none for obstacles.
     facet
-        Facet of the foot, shape [count]; −1 for obstacles.
+        Facet of the foot, shape [count]; −1 for obstacles. Of a multiplier the fan that it is on.
+    area
+        Of multipliers what of them the target covers: an area [m²], in the plane a length [m],
+        shape [count].
     shift, velocity
         How far the obstacle moves in the step [m], and its velocity at the end [m/s], shape
         [count, D]; zero for bodies.
@@ -64,6 +70,7 @@ class Contacts:
     source: Indices
     target: Indices
     reaction: Array
+    adhesion: Array
     gap: Array
     normal: Array
     sources: Indices
@@ -71,6 +78,7 @@ class Contacts:
     followed: Indices
     weights: Array
     facet: Indices
+    area: Array
     shift: Array
     velocity: Array
     interference: Array
@@ -96,20 +104,20 @@ class Contacts:
         return len(self.node)
 
     @property
-    def massless(self) -> NDArray[np.bool_]:
+    def massless(self) -> Mask:
         """Which of them have a side without mass, shape [count]."""
         return np.array([side is not None and side.massless for side in self.side], dtype=bool)
 
-    def only(self, chosen: NDArray[np.bool_]) -> Contacts:
+    def only(self, chosen: Mask) -> Contacts:
         """Return those that are chosen."""
         side = tuple(side for side, keep in zip(self.side, chosen, strict=True) if keep)
         arrays = (one for one in fields(self) if one.name != "side")
         return Contacts(**{one.name: getattr(self, one.name)[chosen] for one in arrays}, side=side)
 
-    def placed(self, chosen: NDArray[np.bool_], others: Contacts) -> Contacts:
+    def placed(self, chosen: Mask, others: Contacts) -> Contacts:
         """Return the same contacts where they are if chosen, and else where `others` are."""
         geometry = (
-            *("site", "gap", "normal", "sources", "shares", "followed", "weights", "facet"),
+            *("site", "gap", "normal", "sources", "shares", "followed", "weights", "facet", "area"),
             *("gap_error", "normal_error", "grain"),
         )
         found: dict[str, Any] = {}
@@ -137,12 +145,29 @@ class Contacts:
         for k, side in enumerate(self.side):
             if side is not None:
                 out[k] = [value(law) for law in side.law.directions]
+        out[self.bonds] = OF_BONDS
         return out
+
+    @property
+    def bonds(self) -> Mask:
+        """Which of them hold and cannot be broken, shape [count]."""
+        unbreakable = [
+            side is not None and side.holding is not None and side.holding.unbreakable
+            for side in self.side
+        ]
+        bonds: Mask = np.array(unbreakable, dtype=bool) & (self.adhesion > 0.0)
+        return bonds
 
     @property
     def normal_force(self) -> Array:
         """r_n [N], shape [count]."""
         return einsum("ki,ki->k", self.reaction, self.normal)
+
+    @property
+    def force_in_cone(self) -> Array:
+        """r_n + A [N]: what Signorini's and Coulomb's laws are about, shape [count]."""
+        force: Array = self.normal_force + self.adhesion
+        return force
 
     @property
     def friction_force(self) -> Array:
@@ -191,9 +216,11 @@ class Contacts:
         """What tells each contact from the others: its nodes, and what they are against."""
         keys: list[tuple[int, ...]] = []
         for k, site in enumerate(self.site):
-            nodes = (
-                [int(self.node[k])] if site == AT_NODE else sorted(set(self.sources[k].tolist()))
-            )
+            nodes = sorted(set(self.sources[k].tolist()))
+            if site == AT_NODE:
+                nodes = [int(self.node[k])]
+            elif site == AT_MULTIPLIER:
+                nodes = [int(self.node[k]), int(self.facet[k])]
             others = sorted(set(self.followed[k, :2].tolist())) if site == AT_EDGES else []
             keys.append((int(self.target[k]), int(site), *nodes, *others))
         return keys

@@ -13,9 +13,11 @@ from carom.auditing.contact.crossings import crossings, drawn_depths, edges
 from carom.auditing.contact.obstacles import Cornered
 from carom.auditing.contact.rounding import nearest_places
 from carom.auditing.model import AuditModel
+from carom.auditing.steps.bonds import carried
 from carom.auditing.steps.choosing import settle
-from carom.auditing.steps.contacts import AT_EDGES, BEFORE_ROUND, Contacts
+from carom.auditing.steps.contacts import AT_EDGES, AT_MULTIPLIER, BEFORE_ROUND, Contacts
 from carom.auditing.steps.cornered import ON_END, at_corners, at_edges, on_obstacle
+from carom.auditing.steps.multipliers import at_multipliers
 from carom.auditing.steps.place import Place, weighted
 from carom.auditing.targets.feet import BEYOND, CORNER, Feet, Target
 
@@ -42,7 +44,15 @@ def find(
     Feet are those that come closest to the stored gaps and normals. What is stored is not of all
     times of a step: feet at others are near those of the contacts `like` them.
     """
-    return _Finder(model, state, (position, time), step, like).found()
+    found = _Finder(model, state, (position, time), step, like).found()
+    bonds = found.bonds
+    if not bonds.any():
+        return found
+    # What nothing breaks is where it was closed at the start of the run, for ever.
+    begun = model.begun
+    start = (model.points + begun.displacement, begun.time)
+    tied = _Finder(model, state, start, (begun.time, begun.time + 1.0), None).found()
+    return found.placed(~bonds, carried(model, tied, start, (position, time), found))
 
 
 class _Finder:
@@ -65,7 +75,8 @@ class _Finder:
         sides = {(side.source, side.target): side for side in model.sides}
         between = zip(self._source.tolist(), self._target.tolist(), strict=True)
         self._sides = tuple(sides.get(key) for key in between)
-        self._part = (time - step[0]) / (step[1] - step[0])
+        # Load steps in which time stands still are at their end.
+        self._part = (time - step[0]) / (step[1] - step[0]) if step[1] > step[0] else 1.0
         self._resolves = [
             side is not None and side.interference.left(step[0]) > 0.0 for side in self._sides
         ]
@@ -76,6 +87,8 @@ class _Finder:
             for node in self._node
         ]
 
+        self._multipliers: dict[tuple[int, int], list[Place]] = {}
+        """The multipliers of mortar pairs, by source and target."""
         self._alike: dict[int, list[Place]] = {}
         """Feet of a contact that are as good as one another."""
 
@@ -102,6 +115,7 @@ class _Finder:
 
     def found(self) -> Contacts:
         """Return the contacts."""
+        mortar = np.array([side is not None and side.mortar for side in self._sides], dtype=bool)
         for t in np.unique(self._target):
             at = np.flatnonzero(self._target == t)
             round_ones = np.array([self._is_round(int(k)) for k in at], dtype=bool)
@@ -109,7 +123,10 @@ class _Finder:
                 self._of_ball(int(contact))
             at = at[~round_ones]
             if t >= 0 and t < len(self._model.bodies):
-                self._before_body(int(t), at)
+                for contact in at[mortar[at]]:
+                    self._under_multipliers(int(t), int(contact))
+                if not mortar[at].all():
+                    self._before_body(int(t), at[~mortar[at]])
             elif t < 0 and -1 - t < len(self._model.obstacles):
                 self._before_obstacle(int(-1 - t), at)
         if self._like is None:
@@ -254,6 +271,24 @@ class _Finder:
                     place.gap, place.normal, misfit, BEFORE_ROUND, sources=nodes, depth=depth
                 )
 
+    def _under_multipliers(self, number: int, contact: int) -> None:
+        """Place a contact of a mortar pair under a multiplier, or where edges cross."""
+        source = int(self._source[contact])
+        if (source, number) not in self._multipliers:
+            places = at_multipliers(self._model, source, number, self._position)
+            self._multipliers[source, number] = places
+        own = [p for p in self._multipliers[source, number] if p.node == self._node[contact]]
+        if self._like is not None:
+            fan = int(self._like.facet[contact])
+            own = [place for place in own if place.facet == fan]
+        places = self._fitted(contact, own)
+        if places and (self._like is None or self._like.site[contact] == AT_MULTIPLIER):
+            self._places[contact] = min(places, key=lambda place: place.misfit)
+        if self._model.dimension == 3 and self._may_be(AT_EDGES, contact):
+            crossed = self._at_edges(number, contact)
+            if crossed:
+                self._places[contact], self._alike[contact] = crossed[0], crossed
+
     def _before_body(self, number: int, at: Indices) -> None:
         model, target = self._model, self._model.targets[number]
         span = model.bodies[number].span
@@ -272,8 +307,10 @@ class _Finder:
 
     def _at_node(self, feet: Feet, mine: Indices, contact: int, number: int) -> None:
         misfit = self._misfit(contact, feet.gap[mine], feet.normal[mine])
-        good = mine[misfit <= misfit.min() + SAME]
-        good = good[np.argsort(feet.beyond[good], kind="stable")]
+        alike_ones = misfit <= misfit.min() + SAME
+        good = mine[alike_ones]
+        # At a node that two facets share, the one whose normal it is.
+        good = good[np.lexsort((misfit[alike_ones], feet.beyond[good]))]
         if self._like is not None:
             near = (int(self._like.facet[contact]), self._like.normal[contact])
             target = self._model.targets[number]
@@ -379,6 +416,7 @@ class _Finder:
             source=self._source,
             target=self._target,
             reaction=self._state["contact_reaction"],
+            adhesion=self._state["contact_adhesion"],
             gap=gap - stand_off,
             normal=normal,
             sources=sources,
@@ -386,6 +424,7 @@ class _Finder:
             followed=followed,
             weights=weights,
             facet=np.array([place.facet for place in self._places], dtype=np.int64),
+            area=np.array([place.area for place in self._places]),
             shift=shift,
             velocity=velocity,
             interference=interference,

@@ -10,6 +10,7 @@ import numpy as np
 from carom.auditing.arrays import Array, cross, inertia, rotation, solved, turned
 from carom.auditing.bodies.body import HEAVIEST, MUCH_SHORTER, STEADYING, AuditBody
 from carom.auditing.steps.contacts import all_forces
+from carom.auditing.steps.mobility import mobilities
 from carom.auditing.steps.pulling import Pulling
 from carom.auditing.steps.states import States
 from carom.auditing.steps.touching import Touching
@@ -123,7 +124,10 @@ class Forces:
         share = STEADYING * max(self._states.parts / MUCH_SHORTER, 1.0) ** 2
         resistance = np.minimum(share * body.holding, HEAVIEST * body.mass.moved / dt**2)
         steadying[body.massless] = resistance[:, None] * resisted
-        if model.blended and not body.rigid:
+        if body.modes is not None:
+            # It resists in its amplitudes, and not at nodes: see `ReducedStep`.
+            viscous, start, end, internal = (np.zeros_like(d) for _ in range(4))
+        elif model.blended and not body.rigid:
             at_end = end + viscous + steadying - end_loads
             opposed = viscous - loads
             internal, missing, available = self._blended(index, body, opposed, at_end)
@@ -136,7 +140,7 @@ class Forces:
             missing += float((without * d)[~held].sum())
             available -= float((beside * d)[~held].sum())
         return BodyForces(
-            inertia=body.mass.times(v1 - v0) / dt * (not model.static),
+            inertia=np.zeros_like(d) if model.static else body.mass.times(v1 - v0) / dt,
             gravity=body.mass.nodal[:, None] * model.gravity,
             loads=loads,
             end_loads=end_loads,
@@ -240,6 +244,8 @@ class Forces:
         in static balance at the end of the step, but for the force that steadies them.
         """
         body, f = self._states.model.bodies[index], self.of[index]
+        if body.modes is not None:
+            return self._reduced_residual(index)
         if body.rigid:
             s, (states, forces) = self._states, self._of_rigid(index)
             return s.rigid(body).residual(states, forces, s.dt, at_end=s.model.static)
@@ -252,6 +258,14 @@ class Forces:
         b, held = body.massless, self._states.model.supports[index].held
         residual[b] = np.where(held[b], residual[b], static[b])
         return body.folded(residual)
+
+    def _reduced_residual(self, index: int) -> Array:
+        """Return the same of a reduced body, whose momenta and amplitudes lack it."""
+        s, body = self._states, self._states.model.bodies[index]
+        impulses = self._touching.impulse(body) / s.dt
+        during = self.contact(body) - impulses + self.of[index].gravity
+        velocities = (s.v0[body.span], s.v_scheme[body.span], s.v1[body.span])
+        return s.reduced(body).residual(velocities, (during, impulses), s.weights)
 
     def _of_rigid(self, index: int) -> tuple[tuple[Array, Array, Array], tuple[Array, Array]]:
         """Return the states of a rigid body, and its forces of the step and of impulses [N]."""
@@ -302,8 +316,10 @@ class Forces:
         if body.turns:
             middle = body.points + 0.5 * (self._states.u0 + self._states.u1)[span]
             weight = body.mass.nodal[:, None]
+            if body.modes is not None:
+                weight = 1.0 / mobilities(self._states, body)[:, None]
             arms = middle - (weight * middle).sum(axis=0) / weight.sum()
-            resists = body.nodal_inertia(arms)
+            resists = inertia(arms, lambda field: weight * field)
             leads = (0.5 * (xi * end - (1 - xi) * start), 0.5 * (start + end))
             for k, lead in enumerate(leads):
                 couple = solved(resists, cross(d, lead).sum(axis=0))

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from carom.auditing.arrays import Array, Indices, cross, einsum
+from carom.auditing.arrays import Array, cross, einsum
 from carom.auditing.bodies.body import AuditBody
 from carom.auditing.mesh.facets import corners_of
 from carom.auditing.model import AuditModel
+from carom.auditing.targets.curve import Curve
 from carom.auditing.targets.sheet import FlatPatches, Sheet
 
 HALF = 0.5
@@ -52,11 +53,15 @@ def _clearance(model: AuditModel, pair: tuple[str, str], time: float) -> float:
 
 def _depths(points: Array, position: Array, body: AuditBody) -> Array:
     """Return how deep points are inside a body with nodes at `position` [m], shape [count]."""
-    outline = position[_straight(body)]
+    outline = position[body.outline]
     low, high = outline.min(axis=(0, 1)), outline.max(axis=(0, 1))
     near = np.flatnonzero(((points >= low) & (points <= high)).all(axis=1))
     depths = np.zeros(len(points))
-    if len(near) and body.dimension == 2:
+    if len(near) and body.dimension == 2 and outline.shape[1] == 3:
+        # Facets of second order are parabolas.
+        curve = Curve(body.outline, body.points, smooth=False)
+        depths[near] = np.maximum(-curve.signed_distance(points[near], position), 0.0)
+    elif len(near) and body.dimension == 2:
         depths[near] = _in_outline(points[near], outline)
     elif len(near):
         sheet = Sheet(FlatPatches(body.outline))
@@ -64,14 +69,6 @@ def _depths(points: Array, position: Array, body: AuditBody) -> Array:
         inside = _windings(points[near], position[corners_of(body.outline, 3)]) > HALF
         depths[near] = np.where(inside, behind, 0.0)
     return depths
-
-
-def _straight(body: AuditBody) -> Indices:
-    """Return the outline of a body: in the plane from node to node, in space its facets."""
-    facets = body.outline
-    if body.dimension == 3 or facets.shape[1] == 2:
-        return facets
-    return np.concatenate([facets[:, [0, 2]], facets[:, [2, 1]]])
 
 
 def _windings(points: Array, corners: Array) -> Array:

@@ -29,6 +29,9 @@ class Place:
         Nodes of either side, in the numbering of the model, with their weights.
     depth
         How deep it was inside as drawn [m]; None where that is the depth of its node.
+    node, area
+        Of a multiplier its node, and what of it the target covers: an area [m²], in the plane a
+        length [m].
     clamped
         Whether its foot is where a facet ends that reaches beyond its edge, whatever is farther.
     """
@@ -41,6 +44,8 @@ class Place:
     sources: list[tuple[int, float]] = field(default_factory=list)
     followed: list[tuple[int, float]] = field(default_factory=list)
     depth: float | None = None
+    node: int = -1
+    area: float = 0.0
     clamped: bool = False
 
     def apart(self, nodes: Indices, shares: Array) -> float:

@@ -38,7 +38,8 @@ class Ruled:
         found, model = step.touching.pressed, step.model
         w_n, w_t = found.relative(step.d, found.shift)
         w_n = w_n - found.widening
-        slip, rate = w_t, np.full(len(found), 1.0 / step.dt)
+        # Where time stands still nothing has a speed.
+        slip, rate = w_t, np.full(len(found), 0.0 if step.settles else 1.0 / step.dt)
         # What is open at the start may be closed, and what is as good as closed is.
         landed = w_n + np.maximum(step.touching.start_gaps, 0.0)
         ruled_by_motion = np.where(np.abs(landed) < np.abs(w_n), landed, w_n)

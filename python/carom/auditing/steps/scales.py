@@ -44,8 +44,6 @@ class Scales:
 
     def __init__(self, model: AuditModel) -> None:
         self._model = model
-        self.energy = 0.0
-        """Largest energy of a state [J]."""
         self.speed = model.fastest_obstacle
         """Largest speed of a node, or of an obstacle [m/s]."""
         self.reach = model.fastest_obstacle * model.stage.duration
@@ -57,6 +55,10 @@ class Scales:
         self.moved = 0.0
         """Largest displacement of a node [m]."""
         self.mass = sum(body.mass.total for body in model.bodies)
+        weight = self.mass * float(np.linalg.norm(model.gravity))
+        # Where nothing ever moves, round-off of places does work on weights.
+        self.energy = EPS * model.size * weight
+        """Largest energy of a state [J]."""
 
     def share(self, others: Sequence[Scales]) -> None:
         """Take the largest magnitudes of the stages of a run."""
@@ -98,7 +100,11 @@ class Scales:
 
     def displacement(self, step: Step) -> float:
         """Return how far the displacements of a step may be off [m]."""
-        tolerance = self._model.analysis.newton.tolerance * step.motion
+        motion = step.motion
+        if self._model.static:
+            # Iterations of load steps end at what is small beside all that has moved.
+            motion = max(motion, float(np.abs(step.u0).max()))
+        tolerance = self._model.analysis.newton.tolerance * motion
         return SAFETY * max(tolerance, FLOOR * (self._model.size + self.reach))
 
     def displacement_in(self, dt: Array) -> Array:
@@ -163,4 +169,6 @@ class Scales:
             shares = np.abs(spring.shares)
             held = spring.stiffness(dt) * float(shares.sum()) * shares[own]
             np.add.at(resisted, spring.nodes[own] - body.span.start, held)
+        if model.static:
+            return resisted
         return resisted + np.abs(body.mass.nodal) * (rate / dt + body.law.mass_damping * rate)

@@ -9,9 +9,10 @@ import numpy as np
 
 from carom.auditing.arrays import Array, Mask, sizes
 from carom.auditing.contact.friction import Law, Slide
-from carom.auditing.mesh.facets import node_counts
+from carom.auditing.contact.holding import OF_BONDS
 from carom.auditing.model import AuditModel
-from carom.auditing.steps.contacts import BEARS, Contacts
+from carom.auditing.steps.bearing import bearing_area
+from carom.auditing.steps.contacts import Contacts
 from carom.auditing.steps.ruled import Ruled
 from carom.auditing.steps.scales import Scales
 from carom.auditing.steps.step import Step
@@ -99,6 +100,11 @@ class Sliding:
                 parts = (out.least, out.most, out.whole, out.doubt)
                 for part, values in zip(parts, self._of_law(own, step, ruled, mine), strict=True):
                     part[mine, direction] = values
+        for coefficient, of_bonds in (
+            *((one, OF_BONDS) for one in (out.least, out.most, out.whole)),
+            (out.doubt, 0.0),
+        ):
+            coefficient[found.bonds] = of_bonds
         self._follow(step, ruled)
         return out
 
@@ -172,7 +178,7 @@ def pressures(step: Step) -> Array:
     """Return the pressures of the contacts of a step at their nodes [Pa], shape [count].
 
     They are what all contacts between the same two solids press on a node with, over the area of
-    the reference configuration around it, of facets that face the contact.
+    the reference configuration around it, of facets that face the contact; the mean of several.
     """
     found, model = step.touching.pressed, step.model
     loads: dict[tuple[int, frozenset[int]], float] = {}
@@ -185,20 +191,10 @@ def pressures(step: Step) -> Array:
     out = np.zeros(len(found))
     for k in range(len(found)):
         between = frozenset((int(found.source[k]), int(found.target[k])))
-        area = _bearing(model, int(found.source[k]), int(found.node[k]), found.normal[k], position)
-        out[k] = loads[int(found.node[k]), between] / area
+        for node, share in found.borne(k):
+            area, _ = bearing_area(model, int(found.source[k]), node, found.normal[k], position)
+            out[k] += share * loads[node, between] / area
     return out
-
-
-def _bearing(model: AuditModel, source: int, node: int, pushes: Array, position: Array) -> float:
-    """Return the area around a node that bears what pushes it along this direction [m²]."""
-    body = model.bodies[source]
-    around = np.flatnonzero((body.facets == node - body.span.start).any(axis=1))
-    facing = -body.faces(body.facets[around]).normals(position[body.span]) @ pushes
-    best = facing.max()
-    bears = (facing >= BEARS * best) | (best <= 0.0)
-    shares = body.facet_areas[around] / node_counts(body.facets[around])
-    return float(shares[bears].sum())
 
 
 def _by_law(found: Contacts) -> Iterator[tuple[Law, Mask]]:

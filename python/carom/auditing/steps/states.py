@@ -10,6 +10,7 @@ import numpy as np
 
 from carom.auditing.arrays import Array, turned
 from carom.auditing.bodies.body import AuditBody
+from carom.auditing.bodies.reduced_step import ReducedStep, Weights
 from carom.auditing.bodies.rigid import RigidStep
 from carom.auditing.model import AuditModel
 
@@ -50,6 +51,14 @@ class States:
         return model.starts_elsewhere and float(self.start["time"]) == model.stage.start_time
 
     @property
+    def settles(self) -> bool:
+        """Whether it is the load step in which what went on with inertia comes to rest.
+
+        The time of loads stands still in it.
+        """
+        return self.model.stabilised and float(self.start["time"]) == self.time
+
+    @property
     def uses_start(self) -> bool:
         """Whether the reactions of its start count in it."""
         return self.model.static or self.model.massless
@@ -62,6 +71,8 @@ class States:
         Nominal steps are equal but for a shorter last one, and those that failed are halved; the
         difference of two times has more round-off than a step may have.
         """
+        if self.settles:
+            return 0.0, 0.0, 1.0
         analysis = self.model.analysis
         nominal, end = analysis.time_step, self.model.stage.duration
         raw = self.time - float(self.start["time"])
@@ -137,6 +148,9 @@ class States:
             if body.rigid:
                 u0, v0 = self.u0[body.span], self.v0[body.span]
                 velocity[body.span] = self.rigid(body).scheme(u0, v0, theta, self.dt)[0]
+            elif body.modes is not None:
+                v0 = self.v0[body.span]
+                velocity[body.span] = self.reduced(body).scheme(v0, self.weights)
             elif len(supports):
                 given = supports.velocity(self.time)
                 velocity[body.span][supports.held] = given[supports.held]
@@ -168,6 +182,21 @@ class States:
         for body, supports in zip(self.model.bodies, self.model.supports, strict=True):
             held[body.span] = np.where(supports.held, motion[body.span], 0.0)
         return held
+
+    @property
+    def weights(self) -> Weights:
+        """How the scheme weighs both ends."""
+        model = self.model
+        stress = 0.5 if model.conserving else model.xi
+        return Weights(theta=model.theta, xi=model.xi, stress=stress, dt=self.dt)
+
+    def whole(self, body: AuditBody) -> RigidStep | ReducedStep:
+        """Return the motion of a body whose equations are those of its momenta."""
+        return self.rigid(body) if body.rigid else self.reduced(body)
+
+    def reduced(self, body: AuditBody) -> ReducedStep:
+        """Return the motion of a reduced body."""
+        return ReducedStep.of(body, self.u0[body.span], self.u1[body.span])
 
     def rigid(self, body: AuditBody) -> RigidStep:
         """Return the motion of a rigid body."""

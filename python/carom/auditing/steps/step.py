@@ -72,10 +72,14 @@ class Step(States):
         held, grown = model.supports[index].held, self.grown(body)
         end = self.end["velocity"][body.span]
         jump = self.v_scheme[body.span] - v0
+        damped = float((f.viscous * d).sum())
         scheme = (model.theta - 0.5) * 2 * body.kinetic_energy(u0, jump)
         if body.rigid:
             rigid, v1 = self.rigid(body), self.v_scheme[body.span]
             scheme = rigid.taken_by_scheme(v0, v1, model.theta, self.dt)[0]
+        elif body.modes is not None:
+            reduced, v1 = self.reduced(body), self.v_scheme[body.span]
+            scheme, damped = reduced.taken(v0, v1, self.weights)
         elif held.any():
             # What is held moves as it is given, not as the scheme would have it.
             free = np.where(held, 0.0, jump)
@@ -100,7 +104,7 @@ class Step(States):
             "kinetic": body.kinetic_energy(u1, end) - body.kinetic_energy(u0, v0),
             "strain": body.strain_energy(u1, grown[1]) - body.strain_energy(u0, grown[0]),
             "external": float(((f.gravity + f.loads) * d).sum()),
-            "viscous": float((f.viscous * d).sum()),
+            "viscous": damped,
             "plastic": body.plastic_work(u1, grown[1]),
             "scheme": scheme,
             "contact": contact,

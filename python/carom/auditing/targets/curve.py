@@ -45,7 +45,8 @@ class Curve:
             # The parabola through three nodes.
             self._nodes[:, 2] = facets[:, 2]
             tangents[:, :] = [[-3.0, -1.0, 4.0, 0.0], [1.0, 3.0, -4.0, 0.0]]
-        self._joined = np.zeros((len(facets), 2), dtype=bool)
+        self.joined: Mask = np.zeros((len(facets), 2), dtype=bool)
+        """Ends at which facets go on into others smoothly, at an angle, shape [facet_count, 2]."""
         around = np.bincount(ends.ravel(), minlength=len(points))
         self._rim = around[ends] == 1
         """Ends of facets where an open surface ends, shape [facet_count, 2]."""
@@ -87,7 +88,11 @@ class Curve:
                 tangents[f, end, end] += sign * other
                 tangents[f, end, 2 + end] = -sign * other
                 self._nodes[f, 2 + end] = facets[g, end]
-                self._joined[f, end] = True
+                self.joined[f, end] = True
+
+    def over(self, facet: int, xi: Array) -> tuple[Indices, Array]:
+        """Return the nodes that points at ξ of a facet follow, and weights, [count, node]."""
+        return self._nodes[facet], (xi[:, None] ** _POWERS) @ self._weights[facet]
 
     def feet(self, x: Array, position: Array) -> Feet:
         """Return all feet, see `Target`."""
@@ -98,7 +103,7 @@ class Curve:
         point, segment = np.nonzero((at_start <= slack) & (at_end >= -slack))
         parts = [(point, segment, self._closest(offset[point, segment]), np.zeros(len(point)))]
         for end, falls in ((0, at_start > 0), (1, at_end < 0)):
-            point, segment = np.nonzero(falls & ~self._joined[:, end])
+            point, segment = np.nonzero(falls & ~self.joined[:, end])
             local = offset[point, segment]
             xi = np.full(len(point), float(end))
             tangent = _combined(local, _slopes(xi))

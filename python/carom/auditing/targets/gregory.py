@@ -7,7 +7,7 @@ as they are. docs/theory.md has the construction.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping, Sequence
 from itertools import pairwise
 
 import numpy as np
@@ -56,6 +56,11 @@ class GregoryPatches:
         whole = np.array([f for f in range(len(facets)) if f not in bent], dtype=np.int64)
         self.curved: Mask = np.arange(len(kept) + len(whole)) < len(kept)
         """Which patches go on into others without a kink, shape [patch_count]: they come first."""
+        parts = [tile - owner.index(own) for tile, own in enumerate(owner)]
+        self.over: Mapping[tuple[int, int], int] = {
+            (owner[tile], parts[tile]): patch for patch, tile in enumerate(kept)
+        }
+        self.owners: Sequence[int] = [*(owner[tile] for tile in kept), *whole.tolist()]
         controls = [self._controls(network, tangents, tile) for tile in kept]
         used = [sorted({n for control in own for n in control.weights}) for own in controls]
         flat = facets[whole]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from typing import Protocol
 
 import numpy as np
@@ -53,6 +54,14 @@ class Patches(Protocol):
     def curved(self) -> Mask:
         """Which of them go on into others without a kink, shape [patch_count]."""
 
+    @property
+    def over(self) -> Mapping[tuple[int, int], int]:
+        """The curved ones, by facets of the boundary and the numbers of their parts."""
+
+    @property
+    def owners(self) -> Sequence[int]:
+        """The facets of the boundary that patches are over, [patch_count]."""
+
     def values(self, patch: Indices, xi: Array) -> Array:
         """Return the weights of the nodes at ξ, shape [count, n]."""
 
@@ -80,6 +89,8 @@ class FlatPatches:
         self.rim = rim_edges(padded(corners_of(facets, 3).tolist(), 4))
         self.tie = TIE
         self.curved: Mask = np.zeros(len(facets), dtype=bool)
+        self.over: Mapping[tuple[int, int], int] = {}
+        self.owners: Sequence[int] = range(len(facets))
 
     def values(self, patch: Indices, xi: Array) -> Array:
         """Return N_a at ξ, shape [count, a]."""
@@ -111,6 +122,19 @@ class Sheet:
         self.facets, self._patches = patches.facets, patches
         self.smooth = patches.curved
         self.width = patches.nodes.shape[1]
+
+    def patch_over(self, facet: int, part: int) -> int | None:
+        """Return the curved patch over a part of a facet; None where it is as its cell is."""
+        return self._patches.over.get((facet, part))
+
+    def owner(self, patch: int) -> int:
+        """Return the facet of the boundary that a patch is over."""
+        return self._patches.owners[patch]
+
+    def over(self, patch: int, xi: Array) -> tuple[Indices, Array]:
+        """Return the nodes that points at ξ of a patch follow, and weights, [count, node]."""
+        weights = self._patches.values(np.full(len(xi), patch), xi)
+        return self._patches.nodes[patch], weights
 
     def feet(self, x: Array, position: Array) -> Feet:
         """Return all feet near the points, see `Target`."""

@@ -9,7 +9,7 @@ import numpy as np
 from carom.auditing.arrays import Indices
 from carom.auditing.mesh.facets import grouped
 
-_TILES = {
+TILES = {
     3: [[0, 1, 2]],
     4: [[0, 1, 2, 3]],
     # A triangle at every corner, and what is between the middles of the sides.
@@ -25,7 +25,7 @@ def cut(facets: Indices) -> tuple[list[list[int]], list[int]]:
     found: list[tuple[int, list[int]]] = []
     for kind, rows, nodes in grouped(facets, 3):
         for own, facet in zip(rows.tolist(), nodes.tolist(), strict=True):
-            found += [(own, [facet[k] for k in tile]) for tile in _TILES[len(kind.nodes)]]
+            found += [(own, [facet[k] for k in tile]) for tile in TILES[len(kind.nodes)]]
     found.sort(key=lambda tile: tile[0])
     return [tile for _, tile in found], [own for own, _ in found]
 
