@@ -16,6 +16,8 @@ pub struct Contact<const D: usize> {
     /// The area that a reaction is spread over, so that the pressure is r_n over it. For a body in the plane it is a length
     /// [m], to be multiplied by the thickness, otherwise [m²]. 0 where a node stands for it.
     pub area: f64,
+    /// How much larger its gap is than the way of its stencil along the normal [m]: an obstacle has one node, and is touched somewhere else.
+    offset: f64,
     /// Without an allocation for a source node and the facet of a target.
     stencil: SmallVec<[(u32, f64); 1 + MAX_FACET_NODES]>,
     /// How many entries of the stencil are source nodes; they come first.
@@ -27,7 +29,7 @@ impl<const D: usize> Contact<D> {
     pub(crate) fn new(gap: f64, frame: Matrix<D>, source: u32, target: &[u32], weights: &[f64]) -> Self {
         let target = target.iter().zip(weights).map(|(&node, &weight)| (node, -weight));
         let stencil = std::iter::once((source, 1.0)).chain(target).collect();
-        Self { gap, frame, area: 0.0, stencil, sources: 1 }
+        Self { gap, frame, area: 0.0, offset: 0.0, stencil, sources: 1 }
     }
 
     /// The contact of a source point, which follows `nodes` with these `weights`, with the `obstacle` that has this number if it may move.
@@ -40,7 +42,7 @@ impl<const D: usize> Contact<D> {
     ) -> Self {
         let source = nodes.iter().zip(weights).map(|(&node, &weight)| (node, weight));
         let stencil = source.chain(obstacle.map(|node| (node, -1.0))).collect();
-        Self { gap, frame, area: 0.0, stencil, sources: nodes.len() }
+        Self { gap, frame, area: 0.0, offset: 0.0, stencil, sources: nodes.len() }
     }
 
     /// The contact of two edges, given by their nodes, where they cross.
@@ -48,7 +50,14 @@ impl<const D: usize> Contact<D> {
         let [s, t] = crossing.along;
         let stencil = [(source[0], 1.0 - s), (source[1], s), (target[0], t - 1.0), (target[1], -t)];
         let stencil = stencil.into_iter().collect();
-        Self { gap: crossing.gap, frame: frame(&crossing.normal), area: 0.0, stencil, sources: 2 }
+        Self {
+            gap: crossing.gap,
+            frame: frame(&crossing.normal),
+            area: 0.0,
+            offset: 0.0,
+            stencil,
+            sources: 2,
+        }
     }
 
     /// The contact of a multiplier that covers `area`: its gap is the mean of the offsets along the normal.
@@ -61,7 +70,7 @@ impl<const D: usize> Contact<D> {
     ) -> Self {
         let source_count = sources.len();
         let stencil = sources.chain(targets).collect();
-        Self { gap: 0.0, frame, area, stencil, sources: source_count }.moved(position)
+        Self { gap: 0.0, frame, area, offset: 0.0, stencil, sources: source_count }.moved(position)
     }
 
     /// A contact as it was: with what [`Self::stencil`] gave, of which the first `sources` entries are source nodes.
@@ -78,12 +87,19 @@ impl<const D: usize> Contact<D> {
     ) -> Self {
         let stencil: SmallVec<_> = stencil.collect();
         assert!(sources <= stencil.len(), "source nodes are part of the stencil");
-        Self { gap, frame, area, stencil, sources }
+        Self { gap, frame, area, offset: 0.0, stencil, sources }
     }
 
     /// That of a candidate which its pair cannot have: as far from everything as can be, and nothing moves in it.
     pub(crate) fn with_nothing() -> Self {
-        Self { gap: f64::MAX, frame: Matrix::identity(), area: 0.0, stencil: SmallVec::new(), sources: 0 }
+        Self {
+            gap: f64::MAX,
+            frame: Matrix::identity(),
+            area: 0.0,
+            offset: 0.0,
+            stencil: SmallVec::new(),
+            sources: 0,
+        }
     }
 
     /// Turns the tangents to where those of an earlier frame of the contact were (`carried` in frame.rs). A frame of zeros stands for none.
@@ -126,7 +142,25 @@ impl<const D: usize> Contact<D> {
     /// The same contact, frame and stencil, with its gap where nodes are at `position`.
     #[must_use]
     pub fn moved(&self, position: &Positions<'_, D>) -> Self {
-        Self { gap: self.relative(|n| position(n as u32))[0], ..self.clone() }
+        Self { gap: self.relative(|n| position(n as u32))[0] + self.offset, ..self.clone() }
+    }
+
+    /// The same contact, whose gap was found where nodes are at `position`: how much of it the stencil does not say.
+    pub(crate) fn anchored(mut self, position: &Positions<'_, D>) -> Self {
+        self.offset = self.gap - self.relative(|n| position(n as u32))[0];
+        self
+    }
+
+    /// How much larger its gap is than the way of its stencil along the normal [m].
+    #[must_use]
+    pub fn offset(&self) -> f64 {
+        self.offset
+    }
+
+    /// The same contact with this [`Self::offset`] [m].
+    #[must_use]
+    pub fn with_offset(self, offset: f64) -> Self {
+        Self { offset, ..self }
     }
 
     /// The nodes involved with their weights, source nodes first: of a single node +1, and minus the shape functions for the target.

@@ -201,7 +201,9 @@ impl<const D: usize> ContactModel<D> {
     pub fn evaluate(&self, candidate: &Candidate, position: &Positions<'_, D>) -> Contact<D> {
         let pair = self.pairs.get(candidate.pair as usize);
         match pair.target {
-            Target::Obstacle(o) => self.before_obstacle(candidate, &self.obstacles[o], position),
+            Target::Obstacle(o) => {
+                self.before_obstacle(candidate, &self.obstacles[o], position).anchored(position)
+            }
             Target::Surface(t) => match (candidate.site, candidate.facet) {
                 (Site::Node(node), Some(f)) => {
                     let x = position(node);

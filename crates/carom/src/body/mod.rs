@@ -371,7 +371,7 @@ pub trait Body<const D: usize>: Send + Sync {
         false
     }
 
-    /// The mass by which a node resists what moves it alone [kg], greater than 0.
+    /// The mass by which a node resists what moves it alone [kg]; none of a node that takes no force.
     fn mass_of(&self, node: u32) -> f64;
 
     /// What an `impulse` [N s] makes of the velocities: writes Δv = M⁻¹ p [m/s] to `change`, zero where displacements are held, and where they

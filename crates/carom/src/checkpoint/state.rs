@@ -78,6 +78,7 @@ struct Reactions<const D: usize> {
     /// Negative for none.
     adhesion: Vec<f64>,
     gap: Vec<f64>,
+    offset: Vec<f64>,
     area: Vec<f64>,
     frame: Vec<Matrix<D>>,
     source_count: Vec<usize>,
@@ -133,6 +134,7 @@ impl<const D: usize> Reactions<D> {
             force: reactions.iter().map(|r| r.force).collect(),
             adhesion: reactions.iter().map(|r| r.adhesion.unwrap_or(-1.0)).collect(),
             gap: contacts().map(|c| c.gap).collect(),
+            offset: contacts().map(Contact::offset).collect(),
             area: contacts().map(|c| c.area).collect(),
             frame: contacts().map(|c| c.frame).collect(),
             source_count: contacts().map(|c| c.sources().len()).collect(),
@@ -152,6 +154,7 @@ impl<const D: usize> Reactions<D> {
         self.force.resize(count, Vector::zeros());
         self.adhesion.resize(count, -1.0);
         self.gap.resize(count, 0.0);
+        self.offset.resize(count, 0.0);
         self.area.resize(count, 0.0);
         self.frame.resize(count, Matrix::zeros());
         self.source_count.resize(count, 0);
@@ -164,6 +167,7 @@ impl<const D: usize> Reactions<D> {
         archive.vectors(&name("force"), &mut self.force)?;
         archive.numbers(&name("adhesion"), &mut self.adhesion)?;
         archive.numbers(&name("gap"), &mut self.gap)?;
+        archive.numbers(&name("offset"), &mut self.offset)?;
         archive.numbers(&name("area"), &mut self.area)?;
         archive.numbers(&name("frame"), self.frame.iter_mut().flat_map(|f| f.iter_mut()))?;
         archive.integers(&name("source_count"), &mut self.source_count)?;
@@ -192,7 +196,8 @@ impl<const D: usize> Reactions<D> {
         for k in 0..self.pair.len() {
             let stencil = stencils.by_ref().take(self.stencil_length[k]);
             let contact =
-                Contact::of_stencil(self.gap[k], self.frame[k], self.area[k], stencil, self.source_count[k]);
+                Contact::of_stencil(self.gap[k], self.frame[k], self.area[k], stencil, self.source_count[k])
+                    .with_offset(self.offset[k]);
             let pair = self.pair[k];
             let site = to_site(assembly, pair, self.site[k]);
             let site = site.ok_or_else(|| wrong("site", "names a node that is not there"))?;

@@ -197,7 +197,9 @@ impl<const D: usize> History<D> {
         since.normal_force = report.normal_force;
         for (trail, t) in self.trails.iter_mut().zip(&self.tracks) {
             let u = state.displacement[t.node];
-            *trail = Trail { displacement: u, mean_velocity: (u - trail.displacement) / dt };
+            // A stabilised load step comes to rest in no time.
+            let per_time = if dt > 0.0 { dt.recip() } else { 0.0 };
+            *trail = Trail { displacement: u, mean_velocity: (u - trail.displacement) * per_time };
         }
     }
 

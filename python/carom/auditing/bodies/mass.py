@@ -93,8 +93,13 @@ class Mass:
             self._lumped = _lumped(cells, self._local)
         self._added = added
         self._massless = massless
-        self.moved: Array = self._row_sizes()[massless]
-        """What nodes without mass had before it moved inside: row sums without signs [kg]."""
+        self.sizes: Array = self._row_sizes()
+        """How much each node resists what moves it alone [kg]: row sums without signs."""
+        self.moved: Array = self.sizes[massless]
+        """What nodes without mass had before it moved inside, likewise [kg]."""
+        self.sizes[massless] = 0.0
+        for one in added:
+            np.add.at(self.sizes, one.nodes, one.mass * one.shares)
         self._follow = _Follow(cells.nodes, points, massless, facets)
         self.nodal: Array = self.times(np.ones((cells.node_count, cells.dimension)))[:, 0]
         """Row sums [kg], shape [node_count]."""

@@ -315,9 +315,11 @@ class Forces:
         d = self._states.d[span]
         if body.turns:
             middle = body.points + 0.5 * (self._states.u0 + self._states.u1)[span]
-            weight = body.mass.nodal[:, None]
+            weight = body.mass.sizes[:, None]
             if body.modes is not None:
-                weight = 1.0 / mobilities(self._states, body)[:, None]
+                # No force is taken inside.
+                weight = np.zeros((len(middle), 1))
+                weight[body.surface, 0] = 1.0 / mobilities(self._states, body)[body.surface]
             arms = middle - (weight * middle).sum(axis=0) / weight.sum()
             resists = inertia(arms, lambda field: weight * field)
             leads = (0.5 * (xi * end - (1 - xi) * start), 0.5 * (start + end))

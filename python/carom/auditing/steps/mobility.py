@@ -13,7 +13,7 @@ from carom.auditing.steps.states import States
 def mobilities(states: States, body: AuditBody) -> Array:
     """Return by how much an impulse on each node alone moves it [1/kg], shape [node_count]."""
     if not body.moves_as_a_whole:
-        mass = body.folded(body.mass.nodal)[body.masters]
+        mass = body.folded(body.mass.sizes)[body.masters]
         return np.where(mass > 0.0, 1.0 / np.where(mass > 0.0, mass, 1.0), 0.0)
     # In the mean over the directions, as drawn.
     arms = body.arms(0.0 * body.points)

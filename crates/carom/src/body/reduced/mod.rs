@@ -293,8 +293,11 @@ impl<const D: usize> Body<D> for ReducedBody<D> {
         part(&self.body).damping != 0.0
     }
 
-    /// The mass that a force at the node moves, in the mean of all directions.
+    /// The mass that a force at the node moves, in the mean of all directions; none inside, where no force is taken.
     fn mass_of(&self, node: u32) -> f64 {
+        if self.place_of[node as usize] == u32::MAX {
+            return 0.0;
+        }
         let mobility = mobility(&part(&self.body).shape, &Matrix::identity());
         1.0 / own_compliance(part(&self.body), node, &mobility, |_| 1.0)
     }
