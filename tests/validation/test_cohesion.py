@@ -163,6 +163,34 @@ def test_what_holds_is_there_after_a_restart():
     assert [name for name in kept if not np.array_equal(last[name], wanted[name])] == []
 
 
+@pytest.mark.parametrize("condition", ["gap", "midpoint", "massless"])
+@pytest.mark.parametrize(("level", "velocity"), [(1.0, [0.0, 0.0]), (-3.0, [0.3, 0.2])])
+def test_a_bond_holds_wherever_the_obstacle_is(tmp_path, condition, level, velocity):
+    """Symptom guarded against: gaps of bonds were taken from the origin: a body on a floor at
+    y = 1 m was pulled 1 m into it.
+    """
+    block = carom.Body(
+        name="block",
+        material="soft",
+        mesh=carom.Rectangle(corner=[0.0, level], size=[1.0, 1.0], divisions=[3, 3]),
+        velocity=[0.0, 0.3],
+    )
+    floor = carom.Plane(name="floor", point=[0.0, level], normal=[0.0, 1.0], velocity=velocity)
+    pair = carom.Pair(between=["block", "floor"], cohesion=carom.Cohesion(unbreakable=True))
+    case = carom.Scenario(
+        dimension=2,
+        analysis=carom.Dynamic(end_time=0.02, time_step=1e-3, scheme=carom.Conserving()),
+        materials={"soft": carom.SaintVenantKirchhoff(young=1e5, poisson=0.3, density=1e3)},
+        bodies=[block],
+        obstacles=[floor],
+        contact=carom.Contact(condition=condition, friction=0.2, pairs=[pair]),
+        output=carom.Output(history_every=1e-3, fields_every=0.02),
+    )
+    history = carom.run(case, out=tmp_path).history
+    assert np.abs(history["min_gap"][1:]).max() < 1e-14
+    assert history["normal_force"].min() < -1.0
+
+
 def test_what_cannot_hold_is_refused():
     def refused(match, cohesion, change=None, **contact):
         case = thrown(2, is_glued=True)
