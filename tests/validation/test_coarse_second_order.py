@@ -30,3 +30,29 @@ def test_a_coarse_disc_of_second_order_bounces(cell, condition, tmp_path):
     worst = summary["penetration"]["worst"]
     # Halves of facets turn by 22.5° and are 0.39 m long: their arcs are 1.9 cm high.
     assert worst is None or 0.0 < worst["allowed"] - 0.01 * worst["cell"] < 0.03
+
+
+@pytest.mark.parametrize("cell", ["hex20", "hex27", "wedge15"])
+def test_a_coarse_cylinder_of_second_order_bounces(cell, tmp_path):
+    """Symptom guarded against: where a round side ends, its edge was that of the flat one."""
+    cylinder = {"kind": "cylinder", "base": [0.0, -0.5, 1.02], "axis": [0.0, 1.0, 0.0]}
+    cylinder |= {"radius": 1.0, "height": 1.0, "divisions": 2, "rings": 1, "layers": 1}
+    case = {
+        "dimension": 3,
+        "analysis": {"end_time": 0.06, "time_step": 2e-3},
+        "materials": {
+            "soft": {"kind": "neo-hookean", "young": 5000.0, "poisson": 0.3, "density": 1.0}
+        },
+        "bodies": [
+            {
+                "name": "cylinder",
+                "material": "soft",
+                "velocity": [1.0, 0.0, -2.0],
+                "mesh": cylinder | {"cell": cell},
+            }
+        ],
+        "obstacles": [{"name": "floor", "kind": "plane", "point": [0, 0, 0], "normal": [0, 0, 1]}],
+        "contact": {"friction": 0.3},
+    }
+    summary = carom.run(carom.Scenario.from_dict(case), out=tmp_path).summary
+    assert summary["status"] == "completed" and summary["contacts"]

@@ -22,7 +22,7 @@ impl<const D: usize> Shell<D> {
             let (t, at, gap) = self.lowest(edge, &|x| other.signed_distance(x, reach).0);
             if gap < 0.0 {
                 let nearest = other.signed_distance(&at, reach).1;
-                let own = self.around(edge[2])[0];
+                let own = self.beside(edge);
                 let end = if t < 0.0 { edge[0] } else { edge[1] };
                 let half = [end.min(edge[2]), end.max(edge[2])];
                 found(Deep { depth: -gap, at, facet: Some(own), other: Some(nearest) }, half, own);
@@ -41,10 +41,17 @@ impl<const D: usize> Shell<D> {
             }
             let (_, at, gap) = self.lowest(edge, gap);
             if -gap > deepest.depth {
-                deepest = Deep { depth: -gap, at, facet: Some(self.around(edge[2])[0]), other: None };
+                deepest = Deep { depth: -gap, at, facet: Some(self.beside(edge)), other: None };
             }
         }
         deepest
+    }
+
+    /// The facet beside a curved edge that it is an arc of: where a round side ends it is that of the side.
+    fn beside(&self, edge: &[u32; 3]) -> u32 {
+        let around = self.around(edge[2]);
+        let rounder = |a: u32, &b: &u32| if self.first_arc(b) > self.first_arc(a) { b } else { a };
+        around.iter().fold(around[0], rounder)
     }
 
     /// A box around a curved edge.

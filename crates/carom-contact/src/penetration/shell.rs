@@ -157,6 +157,11 @@ impl<const D: usize> Shell<D> {
         (self.edges, self.cells) = (edges, cells);
     }
 
+    /// The [`Self::arc`] of a facet where it was first [m].
+    pub fn first_arc(&self, facet: u32) -> f64 {
+        self.arcs[facet as usize]
+    }
+
     /// The largest [`Self::arc`] where its facets were first [m].
     pub fn largest_arc(&self) -> f64 {
         self.arcs.iter().copied().fold(0.0, f64::max)
