@@ -182,33 +182,40 @@ impl<const D: usize> Shell<D> {
     }
 
     /// How far the arc through a facet, whose neighbours are turned against it, is in front of its middle [m]; not at corners. One of second
-    /// order is two of half its length, as the node between is kept out too: these are a quarter as high.
+    /// order turns by itself, too, and is two of half its length, as the node between is kept out: these are a quarter as high.
     pub fn arc(&self, facet: u32) -> f64 {
         let own = self.normal(facet);
         let Facet { kind, nodes } = &self.facets[facet as usize];
         let around = nodes.iter().flat_map(|&n| self.around(n).iter().map(move |&f| (n, f)));
         let smooth = around.filter(|&(n, f)| self.was_smooth(n, [facet, f]));
         let turn = smooth.map(|(_, f)| own.dot(&self.normal(f))).fold(1.0, f64::min).max(-1.0);
-        self.diameter(facet) * turn.acos() / if kind.is_quadratic() { 32.0 } else { 8.0 }
+        if !kind.is_quadratic() {
+            return self.diameter(facet) * turn.acos() / 8.0;
+        }
+        let at = |n| own.dot(&self.normal_at(n, facet, &self.x));
+        let half = nodes.iter().map(|&n| at(n)).fold(1.0, f64::min).max(-1.0);
+        self.diameter(facet) * turn.acos().max(2.0 * half.acos()) / 32.0
     }
 
     /// Whether there was no corner between two facets at a node of both.
     fn was_smooth(&self, node: u32, facets: [u32; 2]) -> bool {
-        let [a, b] = facets.map(|f| {
-            let facet = &self.facets[f as usize];
-            let patch = Patch::new(facet, &|n| self.reference[(n - self.first) as usize]);
-            // What is straight has one normal.
-            let place = facet.nodes.iter().position(|&n| n == node).filter(|_| facet.kind.is_quadratic());
-            let at = place.map_or_else(
-                || patch.middle(),
-                |k| {
-                    let [xi, eta, _] = facet.kind.reference().nodes[k];
-                    patch.at(&[xi, eta])
-                },
-            );
-            normal(&at.tangents)
-        });
+        let [a, b] = facets.map(|f| self.normal_at(node, f, &self.reference));
         a.dot(&b) > SEARCH.corner
+    }
+
+    /// The normal of a facet at a node of it, where nodes are at `x`. What is straight has that of its middle.
+    fn normal_at(&self, node: u32, f: u32, x: &[Vector<D>]) -> Vector<D> {
+        let facet = &self.facets[f as usize];
+        let patch = Patch::new(facet, &|n| x[(n - self.first) as usize]);
+        let place = facet.nodes.iter().position(|&n| n == node).filter(|_| facet.kind.is_quadratic());
+        let at = place.map_or_else(
+            || patch.middle(),
+            |k| {
+                let [xi, eta, _] = facet.kind.reference().nodes[k];
+                patch.at(&[xi, eta])
+            },
+        );
+        normal(&at.tangents)
     }
 
     /// The edges that are straight, each with the smaller of its facets.
