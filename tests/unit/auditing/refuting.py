@@ -1,8 +1,15 @@
-"""What an audit refutes of a run once something in its results is not as the run left it."""
+"""What an audit says of a run, and once something in its results is not as the run left it."""
 
 import shutil
 
 import carom
+
+
+def confirmed(directory):
+    """Return the checks of a run, of which none fails, by their names."""
+    audit = carom.audit(directory)
+    assert [(check.name, check.where, check.figure) for check in audit.refuted] == []
+    return {check.name: check for check in audit.checks}
 
 
 def refuted_after(run, directory, tamper):

@@ -3,7 +3,7 @@
 import h5py
 import numpy as np
 import pytest
-from refuting import refuted_after
+from refuting import confirmed, refuted_after
 
 import carom
 from tampered import in_case, in_csv, in_h5
@@ -73,17 +73,15 @@ def pulled_off():
     )
 
 
-def confirmed(case, directory):
+def run_confirmed(case, directory):
     carom.run(case, out=directory)
-    audit = carom.audit(directory)
-    assert [(check.name, check.where, check.figure) for check in audit.refuted] == []
-    return {check.name: check for check in audit.checks}
+    return confirmed(directory)
 
 
 @pytest.fixture(scope="module")
 def run(tmp_path_factory):
     out = tmp_path_factory.mktemp("held")
-    checks = confirmed(blocks(), out)
+    checks = run_confirmed(blocks(), out)
     assert checks["adhesion"].count > 5
     assert checks["adhesion: opening"].count > 0
     return out
@@ -91,7 +89,7 @@ def run(tmp_path_factory):
 
 @pytest.mark.parametrize("condition", ["midpoint", "massless"])
 def test_what_holds_and_lets_go_is_confirmed(tmp_path, condition):
-    checks = confirmed(blocks((condition, "conserving")), tmp_path)
+    checks = run_confirmed(blocks((condition, "conserving")), tmp_path)
     assert checks["adhesion"].count > 5
     assert checks["adhesion: opening"].count > 0
 
@@ -100,7 +98,7 @@ def test_what_holds_and_lets_go_is_confirmed(tmp_path, condition):
 def lasting(tmp_path_factory):
     """A run in which contacts hold once they have closed."""
     out = tmp_path_factory.mktemp("lasting")
-    checks = confirmed(blocks(("endpoint", "conserving"), LASTING, lift=1e-3), out)
+    checks = run_confirmed(blocks(("endpoint", "conserving"), LASTING, lift=1e-3), out)
     assert checks["adhesion"].count > 20
     return out
 
@@ -111,20 +109,20 @@ def test_what_holds_although_nothing_lasts_is_found(lasting, tmp_path):
 
 
 def test_a_force_of_every_contact_is_confirmed(tmp_path):
-    checks = confirmed(blocks(cohesion={"force": 350.0}), tmp_path)
+    checks = run_confirmed(blocks(cohesion={"force": 350.0}), tmp_path)
     assert checks["adhesion"].count > 5
 
 
 @pytest.mark.parametrize("discretisation", ["node-to-segment", "mortar"])
 def test_bonds_that_nothing_breaks_are_confirmed(tmp_path, discretisation):
     method, bond = ("midpoint", "conserving"), {"unbreakable": True}
-    checks = confirmed(blocks(method, bond, discretisation=discretisation), tmp_path)
+    checks = run_confirmed(blocks(method, bond, discretisation=discretisation), tmp_path)
     assert checks["contact gaps"].count > 30
     assert "adhesion: opening" not in checks
 
 
 def test_load_steps_that_tear_a_block_off_are_confirmed(tmp_path):
-    checks = confirmed(pulled_off(), tmp_path)
+    checks = run_confirmed(pulled_off(), tmp_path)
     assert checks["adhesion"].count == 4
     assert checks["adhesion: opening"].count == 4
 
@@ -172,7 +170,7 @@ def test_files_that_do_not_say_what_holds_are_read_where_nothing_does(run, tmp_p
     with pytest.raises(carom.InputError, match=r"audit\.h5: has schema 4, .* run its case again"):
         refuted_after(run, tmp_path / "a", old)
     loose = blocks().model_copy(update={"contact": carom.Contact(condition="gap")})
-    confirmed(loose.with_overrides(["contact.penetration_tolerance=0.5"]), tmp_path / "loose")
+    run_confirmed(loose.with_overrides(["contact.penetration_tolerance=0.5"]), tmp_path / "loose")
     assert refuted_after(tmp_path / "loose", tmp_path / "b", old) == set()
 
 

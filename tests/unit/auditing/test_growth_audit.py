@@ -1,7 +1,7 @@
 """Bodies that grow are audited."""
 
 import pytest
-from refuting import refuted_after
+from refuting import confirmed, refuted_after
 from test_interference_audit import METHODS, fit
 from two_discs import scenario
 
@@ -17,12 +17,6 @@ METAL = {
     "yield_stress": 60.0,
 }
 GROWS = {"bodies.0.growth": "0.04*sin(30*t)", "bodies.1.growth": "0.1*t"}
-
-
-def confirmed(directory):
-    audit = carom.audit(directory)
-    assert [(check.name, check.where, check.figure) for check in audit.refuted] == []
-    return {check.name: check for check in audit.checks}
 
 
 @pytest.mark.parametrize("method", METHODS)

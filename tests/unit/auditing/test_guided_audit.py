@@ -2,7 +2,7 @@
 
 import pytest
 from held import SQUARE, held
-from refuting import refuted_after
+from refuting import confirmed, refuted_after
 
 import carom
 from tampered import in_h5, with_another_case, with_another_number
@@ -44,12 +44,6 @@ def guided(guide, condition="midpoint", scheme="conserving", **changes):
         ],
     }
     return held(condition, scheme, **{**given, **changes})
-
-
-def confirmed(directory):
-    audit = carom.audit(directory)
-    assert [(check.name, check.where, check.figure) for check in audit.refuted] == []
-    return {check.name: check for check in audit.checks}
 
 
 @pytest.mark.parametrize("guide", GUIDES)

@@ -1,7 +1,7 @@
 """Rigid bodies that are round whatever their mesh are audited."""
 
 import pytest
-from refuting import refuted_after
+from refuting import confirmed, refuted_after
 
 import carom
 from tampered import in_h5, with_another_case
@@ -49,12 +49,6 @@ def thrown(condition="midpoint", scheme="conserving", **changes):
     if condition == "endpoint":
         case["contact"]["restitution"] = 0.5
     return carom.Scenario.from_dict({**case, **changes})
-
-
-def confirmed(directory):
-    audit = carom.audit(directory)
-    assert [(check.name, check.where, check.figure) for check in audit.refuted] == []
-    return {check.name: check for check in audit.checks}
 
 
 @pytest.mark.parametrize("method", METHODS)
