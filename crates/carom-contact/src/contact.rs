@@ -45,18 +45,16 @@ impl<const D: usize> Contact<D> {
         Self { gap, frame, area: 0.0, offset: 0.0, stencil, sources: nodes.len() }
     }
 
-    /// The contact of two edges, given by their nodes, where they cross.
-    pub(crate) fn of_crossing(crossing: &Crossing<D>, source: [u32; 2], target: [u32; 2]) -> Self {
-        let [s, t] = crossing.along;
-        let stencil = [(source[0], 1.0 - s), (source[1], s), (target[0], t - 1.0), (target[1], -t)];
-        let stencil = stencil.into_iter().collect();
+    /// The contact of two edges where they cross, of which points follow nodes with these weights.
+    pub(crate) fn of_crossing(crossing: &Crossing<D>, source: &[(u32, f64)], target: &[(u32, f64)]) -> Self {
+        let opposite = target.iter().map(|&(node, weight)| (node, -weight));
         Self {
             gap: crossing.gap,
             frame: frame(&crossing.normal),
             area: 0.0,
             offset: 0.0,
-            stencil,
-            sources: 2,
+            stencil: source.iter().copied().chain(opposite).collect(),
+            sources: source.len(),
         }
     }
 

@@ -1,5 +1,6 @@
 use carom_mesh::Vector;
 use carom_mesh::parallel::each_group;
+use smallvec::SmallVec;
 
 use crate::edge::Crossing;
 use crate::frame::frame;
@@ -212,8 +213,11 @@ impl<const D: usize> ContactModel<D> {
                     Contact::new(gap, frame(&p.normal), node, p.nodes, &p.weights)
                 }
                 (Site::Crossing(source, target), _) => {
-                    let c = Crossing::new(source.map(position), target.map(position)).clamped();
-                    Contact::of_crossing(&c, source, target)
+                    let strands = self.strands(&pair, [source, target]);
+                    let [a, b] = strands.map(|strand| strand.line(position));
+                    let c = Crossing::new(&a, &b).clamped();
+                    let [s, t] = c.along;
+                    Contact::of_crossing(&c, &strands[0].weights(s), &strands[1].weights(t))
                 }
                 (Site::Multiplier(node, side), _) => {
                     self.multiplier(candidate.pair as usize, (node, side), position)
@@ -261,7 +265,8 @@ impl<const D: usize> ContactModel<D> {
         {
             return contact;
         }
-        let source = &self.surfaces[self.pairs.get(candidate.pair as usize).source];
+        let pair = self.pairs.get(candidate.pair as usize);
+        let source = &self.surfaces[pair.source];
         let contact = |gap, normal: &Vector<D>, nodes: &[u32], weights: &[f64]| {
             Contact::before_obstacle(gap, frame(normal), nodes, weights, obstacle.node)
         };
@@ -281,9 +286,12 @@ impl<const D: usize> ContactModel<D> {
                 contact(p.normal.dot(&(x - p.point)), &-p.normal, p.nodes, &p.weights)
             }
             (Site::Crossing(source, target), ..) => {
-                let c = Crossing::new(source.map(position), target.map(position)).clamped();
-                let [s, _] = c.along;
-                contact(c.gap, &c.normal, &source, &[1.0 - s, s])
+                let strands = self.strands(&pair, [source, target]);
+                let [a, b] = strands.map(|strand| strand.line(position));
+                let c = Crossing::new(&a, &b).clamped();
+                let (nodes, weights): (SmallVec<[u32; 3]>, SmallVec<[f64; 3]>) =
+                    strands[0].weights(c.along[0]).into_iter().unzip();
+                contact(c.gap, &c.normal, &nodes, &weights)
             }
             (Site::Facet(_) | Site::Edge(_), ..) => {
                 self.before_round(candidate, obstacle, position).unwrap_or_else(Contact::with_nothing)

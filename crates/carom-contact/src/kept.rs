@@ -46,9 +46,10 @@ impl<const D: usize> ContactModel<D> {
             // Found again wherever they come near.
             Site::Multiplier(..) | Site::Facet(_) | Site::Edge(_) => false,
             Site::Crossing(source, target) => {
-                let [a, b] = [source.map(position), target.map(position)];
-                let length = (a[1] - a[0]).norm().min((b[1] - b[0]).norm());
-                let there = Crossing::new(a, b);
+                let pair = self.pairs.get(candidate.pair as usize);
+                let [a, b] = self.strands(&pair, [source, target]).map(|strand| strand.line(position));
+                let length = a.chord().norm().min(b.chord().norm());
+                let there = Crossing::new(&a, &b);
                 there.sine > EDGES.parallel
                     && there.gap.abs() <= apart + SEARCH.kept * length
                     && there.reach().into_iter().all(|reach| reach >= -SEARCH.kept)

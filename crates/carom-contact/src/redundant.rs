@@ -111,9 +111,10 @@ impl<const D: usize> ContactModel<D> {
         position: &Positions<'_, D>,
         candidates: &mut [Candidate],
     ) {
-        let placed = &self.placed(candidates[k].pair, position);
-        let crossing = Crossing::new(edges[0].map(placed), edges[1].map(placed));
         let pair = candidates[k].pair as usize;
+        let placed = &self.placed(candidates[k].pair, position);
+        let [a, b] = self.strands(&self.pairs.get(pair), edges).map(|strand| strand.line(placed));
+        let crossing = Crossing::new(&a, &b);
         if self.is_mortar(pair) {
             return;
         }

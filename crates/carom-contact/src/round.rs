@@ -161,7 +161,7 @@ impl ContactSurface {
                 let s = -across.dot(&offsets[0]) / across.norm_squared();
                 // Along the axis all places are equally near, and the ends of the edge are nodes.
                 let s = if s.is_finite() { s.clamp(0.0, 1.0) } else { 0.0 };
-                let [a, b] = SurfaceEdge { surface: self, edge }.normals(position);
+                let [a, b] = SurfaceEdge { surface: self, edge }.normals(0.5, position);
                 Some(Nearest {
                     stencil: [(nodes[0], 1.0 - s), (nodes[1], s)].into_iter().collect(),
                     point: ends[0] + (ends[1] - ends[0]) * s,

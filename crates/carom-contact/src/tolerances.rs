@@ -68,6 +68,9 @@ pub(crate) struct EdgeTolerances {
     pub round_off: f64,
     /// A facet is what keeps two bodies apart if its plane does so by more than the edges do, less this fraction.
     pub decided: f64,
+    /// Where two edges of second order cross is found to this part of them, or in so many iterations.
+    pub close: f64,
+    pub newton: usize,
 }
 
 /// The tolerances of all edges.
@@ -80,6 +83,8 @@ pub(crate) const EDGES: EdgeTolerances = EdgeTolerances {
     parallel: 0.05,
     round_off: 1e-6,
     decided: 0.1,
+    close: 1e-14,
+    newton: 20,
 };
 
 /// Which facets face one another, and how much of one the other covers.

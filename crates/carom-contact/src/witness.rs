@@ -1,7 +1,7 @@
 //! Candidates where a measure has found bodies inside one another.
 
 use crate::aabb::Aabb;
-use crate::edge::{Edge, Pierced, SurfaceEdge};
+use crate::edge::{Pierced, SurfaceEdge};
 use crate::patch::rim;
 use crate::project::Reach;
 use crate::search::Swept;
@@ -107,14 +107,5 @@ impl ContactSurface {
             }
         });
         best.map(|pierced| pierced.edges)
-    }
-
-    /// The edge between two nodes.
-    pub(crate) fn edge(&self, [a, b]: [u32; 2]) -> Option<&Edge> {
-        let of = |edges: &'_ [Edge], nodes| edges.binary_search_by_key(&nodes, |e| e.nodes).ok();
-        [[a, b], [b, a]].into_iter().find_map(|nodes| {
-            let sharp = of(&self.edges, nodes).map(|k| &self.edges[k]);
-            sharp.or_else(|| of(&self.flat_edges, nodes).map(|k| &self.flat_edges[k]))
-        })
     }
 }

@@ -1,5 +1,6 @@
 use carom_mesh::Vector;
 
+use super::Line;
 use crate::project::area_normal;
 use crate::tolerances::{EDGES, SEARCH};
 
@@ -17,21 +18,27 @@ pub(crate) struct Crossing<const D: usize> {
 }
 
 impl<const D: usize> Crossing<D> {
-    /// Where edges with these ends [m] cross, if their lines did not end.
-    pub fn new(source: [Vector<D>; 2], target: [Vector<D>; 2]) -> Self {
-        let (e, f) = (source[1] - source[0], target[1] - target[0]);
-        let product = area_normal(&[e, f]);
-        let (ee, ff, ef) = (e.norm_squared(), f.norm_squared(), e.dot(&f));
-        let offset = source[0] - target[0];
-        let (on_e, on_f) = (e.dot(&offset), f.dot(&offset));
-        let sine = product.norm() / (ee * ff).sqrt();
-        let square = ee * ff - ef * ef;
-        // Edges that have become parallel, or points, on the way to a solution: any number will do.
-        let safe = |x: f64| if x.is_finite() { x } else { 0.5 };
-        let along = [safe((ef * on_f - ff * on_e) / square), safe((ee * on_f - ef * on_e) / square)];
+    /// Where the edges with these lines cross, if these did not end.
+    pub fn new(source: &Line<D>, target: &Line<D>) -> Self {
+        let (e, f) = (source.chord(), target.chord());
+        let offset = source.ends[0] - target.ends[0];
+        let along = closest(&e, &f, &offset).map(|s| if s.is_finite() { s } else { 0.5 });
+        if source.is_straight() && target.is_straight() {
+            return Self::at(&e, &f, &offset, along);
+        }
+        let along = closest_of_bent(source, target, along);
+        let [s, t] = along;
+        Self::at(&source.slope(s), &target.slope(t), &(source.at(s) - target.at(t)), along)
+    }
+
+    /// Where edges with these tangents cross, `offset` [m] from one another.
+    fn at(e: &Vector<D>, f: &Vector<D>, offset: &Vector<D>, along: [f64; 2]) -> Self {
+        let product = area_normal(&[*e, *f]);
+        let sine = product.norm() / (e.norm_squared() * f.norm_squared()).sqrt();
+        // Edges that have become parallel, or points, on the way to a solution: any will do.
         let any = || Vector::from_fn(|i, _| if i == e.iamin() { 1.0 } else { 0.0 });
         let normal = product.try_normalize(0.0).unwrap_or_else(any);
-        Self { gap: normal.dot(&offset), normal, along, sine: safe(sine) }
+        Self { gap: normal.dot(offset), normal, along, sine: if sine.is_finite() { sine } else { 0.5 } }
     }
 
     /// The same for edges that end half their length beyond their nodes.
@@ -48,6 +55,39 @@ impl<const D: usize> Crossing<D> {
     pub fn nearer(&self) -> [usize; 2] {
         self.along.map(|s| usize::from(s > 0.5))
     }
+}
+
+/// How far along the directions e and f two straight lines are closest whose beginnings are an `offset` apart.
+fn closest<const D: usize>(e: &Vector<D>, f: &Vector<D>, offset: &Vector<D>) -> [f64; 2] {
+    let (ee, ff, ef) = (e.norm_squared(), f.norm_squared(), e.dot(f));
+    let (on_e, on_f) = (e.dot(offset), f.dot(offset));
+    let square = ee * ff - ef * ef;
+    [(ef * on_f - ff * on_e) / square, (ee * on_f - ef * on_e) / square]
+}
+
+/// The same along two lines of which one has a bow, by Newton's method from `along`.
+fn closest_of_bent<const D: usize>(source: &Line<D>, target: &Line<D>, along: [f64; 2]) -> [f64; 2] {
+    let mut found = along;
+    for _ in 0..EDGES.newton {
+        let [s, t] = found;
+        let (e, f, offset) = (source.slope(s), target.slope(t), source.at(s) - target.at(t));
+        let (ee, ff, ef) = (e.norm_squared(), f.norm_squared(), e.dot(&f));
+        let (bent_e, bent_f) = (ee + source.turn(s).dot(&offset), ff - target.turn(t).dot(&offset));
+        let (straight, bent) = (ee * ff - ef * ef, bent_e * bent_f - ef * ef);
+        // Where the lines are far apart for how much they turn, they are taken for straight.
+        let is_bent = bent > 0.5 * straight && bent_e > 0.0;
+        let (ee, ff, square) = if is_bent { (bent_e, bent_f, bent) } else { (ee, ff, straight) };
+        let (on_e, on_f) = (e.dot(&offset), f.dot(&offset));
+        let way = [(ef * on_f - ff * on_e) / square, (ee * on_f - ef * on_e) / square];
+        if !way.iter().all(|w| w.is_finite()) {
+            break;
+        }
+        found = [0, 1].map(|i| found[i] + way[i].clamp(-1.0, 1.0));
+        if way.iter().all(|w| w.abs() <= EDGES.close) {
+            break;
+        }
+    }
+    found
 }
 
 /// Whether a surface turns away from its outside at an edge `along` which its facets have these normals; the edge goes around the

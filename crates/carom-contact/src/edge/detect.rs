@@ -1,7 +1,7 @@
 use carom_mesh::Vector;
 
 use super::crossing::is_foremost;
-use super::{Crossing, Edge, Found, SurfaceEdge};
+use super::{Crossing, Edge, Found, Line, SurfaceEdge};
 use crate::search::SolidSurface;
 use crate::tolerances::{EDGES, SEARCH};
 use crate::{Candidate, ContactModel, Path, Search, Site, Solid};
@@ -69,7 +69,7 @@ fn crossing<const D: usize>(
 ) -> Option<Found> {
     let [s, t] = [source.edge, target.edge];
     let (start, middle) = (path.start, |n: u32| path.middle(n));
-    let there = Crossing::new(s.nodes.map(middle), t.nodes.map(middle));
+    let there = Crossing::new(&s.line(&middle), &t.line(&middle));
     let mut beyond = [None; 2];
     for (side, SurfaceEdge { surface, edge }) in [source, target].into_iter().enumerate() {
         let (reach, end) = (there.reach()[side], there.nearer()[side]);
@@ -80,14 +80,15 @@ fn crossing<const D: usize>(
             beyond[side] = Some(surface.master(edge.nodes[end]));
         }
     }
-    let (a, b) = (s.nodes.map(start), t.nodes.map(start));
-    let (e, f) = (a[1] - a[0], b[1] - b[0]);
-    let at_start = Crossing::new(a, b);
-    let normals = target.normals(start);
+    let (a, b) = (s.line(start), t.line(start));
+    let at_start = Crossing::new(&a, &b);
+    let [on_s, on_t] = at_start.along;
+    let (e, f) = (a.slope(on_s), b.slope(on_t));
+    let normals = target.normals(on_t, start);
     // So that the normal points out of the target.
     let sign = if at_start.normal.dot(&(normals[0] + normals[1])) > 0.0 { 1.0 } else { -1.0 };
     let (n, gap) = (at_start.normal * sign, at_start.gap * sign);
-    let deepest = -SEARCH.depth * e.norm().min(f.norm());
+    let deepest = -SEARCH.depth * a.chord().norm().min(b.chord().norm());
     let is_turned = there.normal.dot(&at_start.normal) <= 0.0;
     if there.sine.min(at_start.sine) < EDGES.parallel
         || is_turned
@@ -97,18 +98,18 @@ fn crossing<const D: usize>(
     {
         return None;
     }
-    let opposite = source.normals(start);
+    let opposite = source.normals(on_s, start);
     if !is_foremost(&-n, &e, &opposite) {
         return None;
     }
     if is_mortar && normals.iter().chain(&opposite).any(|m| m.dot(&n).abs() > SEARCH.alike) {
         return None;
     }
-    let before =
-        |m: &Vector<D>, x: &[Vector<D>; 2], of: &Vector<D>| m.dot(&(x[0] - of)).min(m.dot(&(x[1] - of)));
-    let (whole_a, whole_b) = (s.gone_on(&a, SEARCH.beyond), t.gone_on(&b, SEARCH.beyond));
-    let by_target = normals.iter().map(|m| before(m, &whole_a, &b[0]));
-    let by_source = opposite.iter().map(|m| before(m, &whole_b, &a[0]));
+    // How far a line is before the plane through a point of the other that has the normal m.
+    let before = |m: &Vector<D>, line: &Line<D>, of: &Vector<D>| line.least_along(m) - m.dot(of);
+    let (whole_a, whole_b) = (s.gone_on(SEARCH.beyond, start), t.gone_on(SEARCH.beyond, start));
+    let by_target = normals.iter().map(|m| before(m, &whole_a, &b.at(on_t)));
+    let by_source = opposite.iter().map(|m| before(m, &whole_b, &a.at(on_s)));
     let by_plane = by_target.chain(by_source).fold(f64::NEG_INFINITY, f64::max);
     if by_plane > gap + EDGES.decided * gap.abs() - SEARCH.touching * deepest {
         return None;

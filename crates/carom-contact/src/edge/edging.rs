@@ -2,12 +2,12 @@
 
 use std::collections::BTreeMap;
 
-use carom_mesh::{CellKind, Vector};
+use carom_mesh::{Facet, Vector};
 
 use super::crossing::turns_outwards;
-use super::{Edge, Side};
+use super::{Bow, Edge, Side};
 use crate::ContactSurface;
-use crate::patch::{Patch, rim};
+use crate::patch::{Patch, bows, rim};
 use crate::path::Positions;
 use crate::project::normal;
 use crate::tolerances::{EDGES, SEARCH};
@@ -18,18 +18,26 @@ impl ContactSurface {
     pub(crate) fn edged<const D: usize>(mut self, reference: &Positions<'_, D>) -> Self {
         let mut open: BTreeMap<[u32; 2], ([u32; 2], Side)> = BTreeMap::new();
         for (f, facet) in (0..).zip(&self.facets).filter(|(_, facet)| facet.kind.dimension() == 2) {
-            for ([a, b], middle) in lines(facet.kind) {
+            for [a, b] in rim(facet.kind) {
                 let nodes = [facet.nodes[a], facet.nodes[b]];
                 let [from, to] = nodes.map(|n| self.master(n));
-                let side = Side { facet: f, middle };
+                let places = facet.kind.reference().nodes;
+                let side = Side { facet: f, ends: [a, b].map(|k| [places[k][0], places[k][1]]) };
                 let Some((first, beside)) = open.remove(&[to, from]) else {
                     open.insert([from, to], (nodes, side));
                     continue;
                 };
-                let mut edge =
-                    Edge { nodes: first, sides: [beside, side], is_feature: false, goes_on: [false; 2] };
-                let [m0, m1] = SurfaceEdge { surface: &self, edge: &edge }.normals(reference);
-                let along = reference(first[1]) - reference(first[0]);
+                // The other facet goes around it the other way.
+                let side = Side { ends: [side.ends[1], side.ends[0]], ..side };
+                let mut edge = Edge {
+                    nodes: first,
+                    bow: bow_of(first, &self.facets[beside.facet as usize]),
+                    sides: [beside, side],
+                    is_feature: false,
+                    goes_on: [false; 2],
+                };
+                let [m0, m1] = SurfaceEdge { surface: &self, edge: &edge }.normals(0.5, reference);
+                let along = edge.line(reference).chord();
                 if turns_outwards(&along, [m0, m1]) && m0.dot(&m1) < EDGES.flat {
                     let is_long = |width: f64| along.norm() > EDGES.slender * width;
                     edge.is_feature =
@@ -51,8 +59,9 @@ impl ContactSurface {
     fn join_edges<const D: usize>(&mut self, reference: &Positions<'_, D>) {
         let mut at: BTreeMap<u32, Vec<(usize, usize, Vector<D>)>> = BTreeMap::new();
         for (k, edge) in self.edges.iter().enumerate() {
-            let along = (reference(edge.nodes[1]) - reference(edge.nodes[0])).normalize();
-            for (end, from) in [(0, along), (1, -along)] {
+            let line = edge.line(reference);
+            for (end, from) in [(0, line.slope(0.0)), (1, -line.slope(1.0))] {
+                let from = from.normalize();
                 at.entry(self.master(edge.nodes[end])).or_default().push((k, end, from));
             }
         }
@@ -85,20 +94,25 @@ pub(crate) struct SurfaceEdge<'a> {
 }
 
 impl SurfaceEdge<'_> {
-    /// Outward unit normals of the two facets beside it, at its middle.
-    pub(crate) fn normals<const D: usize>(&self, position: &Positions<'_, D>) -> [Vector<D>; 2] {
-        self.edge.sides.map(|side| {
-            let patch = Patch::new(&self.surface.facets[side.facet as usize], position);
-            normal(&patch.at(&side.middle).tangents)
+    /// Outward unit normals of the two facets beside it, at its point at s or the end nearest to that.
+    pub(crate) fn normals<const D: usize>(&self, s: f64, position: &Positions<'_, D>) -> [Vector<D>; 2] {
+        let s = s.clamp(0.0, 1.0);
+        self.edge.sides.map(|Side { facet, ends: [a, b] }| {
+            let patch = Patch::new(&self.surface.facets[facet as usize], position);
+            let xi = [0, 1].map(|i| a[i] * (1.0 - s) + b[i] * s);
+            normal(&patch.at(&xi).tangents)
         })
     }
 }
 
-/// The straight lines around a facet, from node to node, with the places of their middles.
-fn lines(kind: CellKind) -> impl Iterator<Item = ([usize; 2], [f64; 2])> {
-    let reference = kind.reference();
-    rim(kind).map(|[a, b]| {
-        let [a_at, b_at] = [a, b].map(|k| reference.nodes[k]);
-        ([a, b], [0, 1].map(|i| 0.5 * (a_at[i] + b_at[i])))
+/// The curve that the line between two nodes around a facet is half of.
+fn bow_of(nodes: [u32; 2], facet: &Facet) -> Option<Bow> {
+    bows(facet.kind).map(|bow| bow.map(|k| facet.nodes[k])).find_map(|[a, b, middle]| {
+        let between = nodes.iter().position(|n| *n == middle)?;
+        match nodes[1 - between] {
+            end if end == a => Some(Bow { far: b, between }),
+            end if end == b => Some(Bow { far: a, between }),
+            _ => None,
+        }
     })
 }

@@ -4,24 +4,29 @@ mod crossing;
 mod detect;
 mod edging;
 mod found;
+mod line;
 mod pierced;
-
-use carom_mesh::Vector;
+mod strand;
 
 use crate::aabb::Aabb;
 use crate::path::Positions;
 use crate::tolerances::EDGES;
+use crate::{ContactModel, ContactSurface, Pair, Target};
 
 pub(crate) use crossing::Crossing;
 pub(crate) use edging::SurfaceEdge;
 pub(crate) use found::Found;
+pub(crate) use line::Line;
 pub(crate) use pierced::Pierced;
+pub(crate) use strand::{Bow, Strand};
 
-/// A straight line along which a surface turns away from its outside, as it is without deformation.
+/// A line from node to node along which a surface turns away from its outside, as it is without deformation.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Edge {
     /// Its ends, in the sense in which they go around the first facet.
     pub nodes: [u32; 2],
+    /// The curve that it is half of, beside facets of second order.
+    bow: Option<Bow>,
     /// The facets that meet there.
     sides: [Side; 2],
     /// Whether nodes and facets miss what crosses it: the surface turns as much as at a corner, or its facets are slender.
@@ -34,26 +39,66 @@ pub(crate) struct Edge {
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Side {
     facet: u32,
-    /// Where on the facet the middle of the edge is.
-    middle: [f64; 2],
+    /// Where on the facet the ends of the edge are.
+    ends: [[f64; 2]; 2],
 }
 
 impl Edge {
-    /// The ends of an edge from and to `x` [m], farther out by this fraction where another edge goes on.
-    fn gone_on<const D: usize>(&self, x: &[Vector<D>; 2], fraction: f64) -> [Vector<D>; 2] {
-        let along = (x[1] - x[0]) * fraction;
-        let by = self.goes_on.map(f64::from);
-        [x[0] - along * by[0], x[1] + along * by[1]]
+    /// The edge by its nodes.
+    pub fn strand(&self) -> Strand {
+        Strand { nodes: self.nodes, bow: self.bow }
+    }
+
+    /// Where it is.
+    pub fn line<const D: usize>(&self, position: &Positions<'_, D>) -> Line<D> {
+        self.strand().line(position)
+    }
+
+    /// Its line, farther out by this fraction where another edge goes on.
+    fn gone_on<const D: usize>(&self, fraction: f64, position: &Positions<'_, D>) -> Line<D> {
+        self.line(position).gone_on(self.goes_on.map(|goes_on| fraction * f64::from(goes_on)))
     }
 
     /// A box around the edge, and a little of where another goes on, on its way through a step.
     pub fn path<const D: usize>(&self, start: &Positions<'_, D>, end: &Positions<'_, D>) -> Aabb<D> {
-        let ends = |x: [Vector<D>; 2]| self.gone_on(&x, EDGES.dent);
-        Aabb::of([ends(self.nodes.map(start)), ends(self.nodes.map(end))].into_iter().flatten())
+        let there = |position| self.gone_on(EDGES.dent, position).bounds();
+        there(start).union(&there(end))
     }
 
     /// The facets that meet there.
     pub fn facets(&self) -> impl Iterator<Item = u32> {
         self.sides.iter().map(|side| side.facet)
+    }
+}
+
+impl ContactSurface {
+    /// The edge between two nodes.
+    pub(crate) fn edge(&self, [a, b]: [u32; 2]) -> Option<&Edge> {
+        let of = |edges: &'_ [Edge], nodes| edges.binary_search_by_key(&nodes, |e| e.nodes).ok();
+        [[a, b], [b, a]].into_iter().find_map(|nodes| {
+            let sharp = of(&self.edges, nodes).map(|k| &self.edges[k]);
+            sharp.or_else(|| of(&self.flat_edges, nodes).map(|k| &self.flat_edges[k]))
+        })
+    }
+
+    /// The edge from one node to another; a straight one where the surface has none.
+    fn strand(&self, nodes: [u32; 2]) -> Strand {
+        match self.edge(nodes).map(Edge::strand) {
+            Some(strand) if strand.nodes == nodes => strand,
+            Some(strand) => strand.reversed(),
+            None => Strand::straight(nodes),
+        }
+    }
+}
+
+impl<const D: usize> ContactModel<D> {
+    /// The edges of the source and of the target that cross at a site of a pair.
+    pub(crate) fn strands(&self, pair: &Pair, [source, target]: [[u32; 2]; 2]) -> [Strand; 2] {
+        let own = self.surfaces[pair.source].strand(source);
+        let other = match pair.target {
+            Target::Surface(t) => self.surfaces[t].strand(target),
+            Target::Obstacle(_) => Strand::straight(target),
+        };
+        [own, other]
     }
 }

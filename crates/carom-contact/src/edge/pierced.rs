@@ -23,10 +23,11 @@ impl Pierced {
         path: &Path<'_, D>,
     ) -> Option<Self> {
         let [s, t] = [source.edge, target.edge];
-        let [a, b] = [s, t].map(|edge| edge.nodes.map(path.start));
-        let start = Crossing::new(a, b);
-        let end = Crossing::new(s.nodes.map(path.end), t.nodes.map(path.end));
-        let (normals, opposite) = (target.normals(path.start), source.normals(path.start));
+        let [a, b] = [s, t].map(|edge| edge.line(path.start));
+        let start = Crossing::new(&a, &b);
+        let end = Crossing::new(&s.line(path.end), &t.line(path.end));
+        let [on_s, on_t] = start.along;
+        let (normals, opposite) = (target.normals(on_t, path.start), source.normals(on_s, path.start));
         let sign = if start.normal.dot(&(normals[0] + normals[1])) > 0.0 { 1.0 } else { -1.0 };
         let n = start.normal * sign;
         let crosses = start.sine.min(end.sine) >= EDGES.parallel
@@ -35,8 +36,8 @@ impl Pierced {
         let goes_in = end.gap * sign < (start.gap * sign).min(0.0);
         if !crosses
             || !goes_in
-            || !is_foremost(&n, &(b[1] - b[0]), &normals)
-            || !is_foremost(&-n, &(a[1] - a[0]), &opposite)
+            || !is_foremost(&n, &b.slope(on_t), &normals)
+            || !is_foremost(&-n, &a.slope(on_s), &opposite)
         {
             return None;
         }
