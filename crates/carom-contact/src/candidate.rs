@@ -16,6 +16,9 @@ pub enum Site {
     Facet(u32),
     /// An edge of the source, from its first node to its second, where it is nearest to the axis of the target.
     Edge([u32; 2]),
+    /// A point of an edge of the source between its nodes, so many sixteenths of the way from its first to its second, before a facet of the
+    /// target. One of the two is of second order.
+    Between([u32; 2], u32),
 }
 
 /// What may touch its target within a step. Ordered by pair, then site: this is the order of the contacts.
@@ -25,8 +28,8 @@ pub struct Candidate {
     pub pair: u32,
     /// The source node, the edges, or the corner of the target.
     pub site: Site,
-    /// The facet that a node or a corner faces on the other side, or that a round obstacle is before; `None` of nodes before an obstacle without
-    /// facets, of multipliers and of edges.
+    /// The facet that a node, a corner or a point of an edge faces on the other side, or that a round obstacle is before; `None` of nodes before an
+    /// obstacle without facets, of multipliers and of edges.
     pub facet: Option<u32>,
     /// Whether it says what another candidate says, and is to be left out. Of two nodes that face one another one is left out, and so is
     /// one of a node and the edges that cross at it.

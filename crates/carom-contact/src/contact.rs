@@ -2,7 +2,6 @@ use carom_mesh::cell::MAX_FACET_NODES;
 use carom_mesh::{Matrix, Vector};
 use smallvec::SmallVec;
 
-use crate::edge::Crossing;
 use crate::frame::{carried, frame, lengths, stretched};
 use crate::path::Positions;
 
@@ -45,12 +44,17 @@ impl<const D: usize> Contact<D> {
         Self { gap, frame, area: 0.0, offset: 0.0, stencil, sources: nodes.len() }
     }
 
-    /// The contact of two edges where they cross, of which points follow nodes with these weights.
-    pub(crate) fn of_crossing(crossing: &Crossing<D>, source: &[(u32, f64)], target: &[(u32, f64)]) -> Self {
-        let opposite = target.iter().map(|&(node, weight)| (node, -weight));
+    /// The contact of a point of an edge with one of a facet or of another edge, which follow nodes with these weights.
+    pub(crate) fn of_edge(
+        gap: f64,
+        normal: &Vector<D>,
+        source: &[(u32, f64)],
+        target: impl Iterator<Item = (u32, f64)>,
+    ) -> Self {
+        let opposite = target.map(|(node, weight)| (node, -weight));
         Self {
-            gap: crossing.gap,
-            frame: frame(&crossing.normal),
+            gap,
+            frame: frame(normal),
             area: 0.0,
             offset: 0.0,
             stencil: source.iter().copied().chain(opposite).collect(),

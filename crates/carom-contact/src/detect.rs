@@ -2,7 +2,7 @@ use carom_mesh::Vector;
 use carom_mesh::parallel::each_group;
 use smallvec::SmallVec;
 
-use crate::edge::Crossing;
+use crate::edge::{Crossing, along};
 use crate::frame::frame;
 use crate::looking::{Looking, Scratch};
 use crate::path::Positions;
@@ -217,7 +217,20 @@ impl<const D: usize> ContactModel<D> {
                     let [a, b] = strands.map(|strand| strand.line(position));
                     let c = Crossing::new(&a, &b).clamped();
                     let [s, t] = c.along;
-                    Contact::of_crossing(&c, &strands[0].weights(s), &strands[1].weights(t))
+                    Contact::of_edge(
+                        c.gap,
+                        &c.normal,
+                        &strands[0].weights(s),
+                        strands[1].weights(t).into_iter(),
+                    )
+                }
+                (Site::Between(nodes, point), Some(f)) => {
+                    let strand = self.surfaces[pair.source].strand(nodes);
+                    let x = strand.line(position).at(along(point));
+                    let p = self.surfaces[t].project(f, &x, Reach::Beyond, position);
+                    let below = p.nodes.iter().copied().zip(p.weights);
+                    let gap = p.normal.dot(&(x - p.point));
+                    Contact::of_edge(gap, &p.normal, &strand.weights(along(point)), below)
                 }
                 (Site::Multiplier(node, side), _) => {
                     self.multiplier(candidate.pair as usize, (node, side), position)
@@ -296,7 +309,9 @@ impl<const D: usize> ContactModel<D> {
             (Site::Facet(_) | Site::Edge(_), ..) => {
                 self.before_round(candidate, obstacle, position).unwrap_or_else(Contact::with_nothing)
             }
-            (Site::Corner(_), _, None) | (Site::Multiplier(..), ..) => Contact::with_nothing(),
+            (Site::Corner(_), _, None) | (Site::Multiplier(..) | Site::Between(..), ..) => {
+                Contact::with_nothing()
+            }
         }
     }
 }

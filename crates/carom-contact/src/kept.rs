@@ -1,6 +1,6 @@
 //! Candidates that were known before.
 
-use crate::edge::Crossing;
+use crate::edge::{Crossing, along};
 use crate::path::Positions;
 use crate::project::Reach;
 use crate::surface::diameter;
@@ -41,6 +41,15 @@ impl<const D: usize> ContactModel<D> {
                     let x = position(node);
                     let near = apart + SEARCH.kept * diameter(&surface.facets[f as usize], position);
                     (x - surface.project(f, &x, Reach::Facet, position).point).norm() <= near
+                })
+            }
+            Site::Between(nodes, point) => {
+                let source = &self.surfaces[self.pairs.get(candidate.pair as usize).source];
+                let faced = self.faced_surface(candidate).zip(candidate.facet);
+                faced.is_some_and(|(surface, f)| {
+                    let x = source.strand(nodes).line(position).at(along(point));
+                    let near = apart + SEARCH.kept * diameter(&surface.facets[f as usize], position);
+                    surface.gap_at(f, &x, position) <= near && surface.is_over(f, &x, position)
                 })
             }
             // Found again wherever they come near.

@@ -15,7 +15,7 @@ impl<const D: usize> ContactModel<D> {
                 Site::Node(node) => self.is_second_side(&c, node, position, candidates),
                 Site::Corner(corner) => self.is_at_node(&c, corner, position, candidates),
                 Site::Facet(_) | Site::Edge(_) => self.is_said_before(k, position, candidates),
-                Site::Multiplier(..) | Site::Crossing(..) => false,
+                Site::Multiplier(..) | Site::Crossing(..) | Site::Between(..) => false,
             };
         }
         // Nodes first: one that gives way to some edges does not make others give way.

@@ -82,15 +82,21 @@ impl<const D: usize> ContactModel<D> {
         }
     }
 
-    /// Whether a pair has such a facet or edge, before such an obstacle.
+    /// Whether a pair has such a facet or edge, before what it may touch between its nodes.
     #[must_use]
-    pub fn has_before_round(&self, pair: usize, site: Site) -> bool {
+    pub fn has_between_nodes(&self, pair: usize, site: Site) -> bool {
         let Pair { source, target, .. } = self.pairs.get(pair);
-        let Target::Obstacle(o) = target else { return false };
         let source = &self.surfaces[source];
-        match (site, &self.obstacles[o].shape) {
-            (Site::Facet(f), RigidShape::Sphere { cavity: false, .. }) => (f as usize) < source.facets.len(),
-            (Site::Edge(nodes), RigidShape::Cylinder { cavity: false, .. }) => source.edge(nodes).is_some(),
+        let shape = match target {
+            Target::Surface(_) => None,
+            Target::Obstacle(o) => Some(&self.obstacles[o].shape),
+        };
+        match (site, shape) {
+            (Site::Facet(f), Some(RigidShape::Sphere { cavity: false, .. })) => {
+                (f as usize) < source.facets.len()
+            }
+            (Site::Edge(nodes), Some(RigidShape::Cylinder { cavity: false, .. }))
+            | (Site::Between(nodes, _), None) => source.edge(nodes).is_some(),
             _ => false,
         }
     }

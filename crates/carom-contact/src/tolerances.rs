@@ -68,9 +68,10 @@ pub(crate) struct EdgeTolerances {
     pub round_off: f64,
     /// A facet is what keeps two bodies apart if its plane does so by more than the edges do, less this fraction.
     pub decided: f64,
-    /// Where two edges of second order cross is found to this part of them, or in so many iterations.
+    /// Where two edges of second order cross, or one is lowest over a facet, is found to this part of it, or in so many iterations.
     pub close: f64,
     pub newton: usize,
+    pub narrowings: usize,
 }
 
 /// The tolerances of all edges.
@@ -85,6 +86,7 @@ pub(crate) const EDGES: EdgeTolerances = EdgeTolerances {
     decided: 0.1,
     close: 1e-14,
     newton: 20,
+    narrowings: 60,
 };
 
 /// Which facets face one another, and how much of one the other covers.
@@ -122,7 +124,7 @@ pub(crate) struct MeasureTolerances {
     pub finest: f64,
     /// Steps in search of the deepest place of a segment in an obstacle; each leaves two thirds of it.
     pub thirds: usize,
-    /// Into how many parts a curved edge is cut in search of its deepest place, and how many parabolas lead there from the best of their ends.
+    /// Into how many parts an edge is cut in search of its lowest place, and how many parabolas lead there from the best of their ends.
     pub places: usize,
     pub parabolas: usize,
     /// What is deeper than this, relative to the diameter of its facet, and than the arcs that facets stand for, is a witness. Facets of four

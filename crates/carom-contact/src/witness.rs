@@ -1,7 +1,7 @@
 //! Candidates where a measure has found bodies inside one another.
 
 use crate::aabb::Aabb;
-use crate::edge::{Pierced, SurfaceEdge};
+use crate::edge::{Dip, Pierced, SurfaceEdge};
 use crate::patch::rim;
 use crate::project::Reach;
 use crate::search::Swept;
@@ -45,11 +45,16 @@ impl<const D: usize> ContactModel<D> {
                     let first = self.pairs.directions(there).start;
                     let is_source = first == there;
                     let pierced = other.pierced_on_the_way(own_edge, depth, is_source, swept, path);
-                    out.extend(pierced.map(|[source, target]| Candidate {
-                        pair: first as u32,
-                        site: Site::Crossing(source, target),
-                        facet: None,
+                    let candidate = |pair: usize, site, facet| Candidate {
+                        pair: pair as u32,
+                        site,
+                        facet,
                         redundant: false,
+                    };
+                    let crossed = pierced.map(|[a, b]| candidate(first, Site::Crossing(a, b), None));
+                    out.extend(crossed.or_else(|| {
+                        let dipped = other.dipped_on_the_way(own_edge, depth, swept, path);
+                        dipped.map(|dip| candidate(there, Site::Between(nodes, dip.point), Some(dip.facet)))
                     }));
                 }
             }
@@ -107,5 +112,21 @@ impl ContactSurface {
             }
         });
         best.map(|pierced| pierced.edges)
+    }
+
+    /// Where an edge of another surface dips into a facet between its nodes by what accounts for its depth [m]; of several such the shallowest.
+    fn dipped_on_the_way<const D: usize>(
+        &self,
+        of_another: SurfaceEdge<'_>,
+        depth: f64,
+        swept: &Swept<D>,
+        path: &Path<'_, D>,
+    ) -> Option<Dip> {
+        let mut best: Option<Dip> = None;
+        swept.tree.overlapping(&of_another.edge.path(path.start, path.end), |f, _| {
+            let dip = self.dip_of(f, of_another, path).filter(|dip| dip.depth >= MEASURE.accounts * depth);
+            best = dip.into_iter().chain(best).reduce(Dip::shallower);
+        });
+        best
     }
 }

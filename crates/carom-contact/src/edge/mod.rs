@@ -5,6 +5,7 @@ mod detect;
 mod edging;
 mod found;
 mod line;
+mod lowest;
 mod pierced;
 mod strand;
 
@@ -17,6 +18,7 @@ pub(crate) use crossing::Crossing;
 pub(crate) use edging::SurfaceEdge;
 pub(crate) use found::Found;
 pub(crate) use line::Line;
+pub(crate) use lowest::{Dip, along};
 pub(crate) use pierced::Pierced;
 pub(crate) use strand::{Bow, Strand};
 
@@ -82,7 +84,7 @@ impl ContactSurface {
     }
 
     /// The edge from one node to another; a straight one where the surface has none.
-    fn strand(&self, nodes: [u32; 2]) -> Strand {
+    pub(crate) fn strand(&self, nodes: [u32; 2]) -> Strand {
         match self.edge(nodes).map(Edge::strand) {
             Some(strand) if strand.nodes == nodes => strand,
             Some(strand) => strand.reversed(),

@@ -89,8 +89,9 @@ struct Reactions<const D: usize> {
 
 const PREFIX: &str = "state/reactions";
 
-/// A site as four numbers: the nodes of two edges, or one node or corner four times; of a multiplier its node twice, its side, and none; of what is
-/// before a round obstacle the nodes of an edge, or the number of a facet twice, and twice none.
+/// A site as four numbers: the nodes of two edges, or one node or corner four times; of a multiplier its node twice, its side, and none; of
+/// a point between nodes these, its number, and none; of what is before a round obstacle the nodes of an edge, or the number of a facet twice, and twice
+/// none.
 fn to_nodes(site: Site) -> [u32; 4] {
     match site {
         Site::Node(n) | Site::Corner(n) => [n; 4],
@@ -98,6 +99,7 @@ fn to_nodes(site: Site) -> [u32; 4] {
         Site::Crossing([a, b], [c, d]) => [a, b, c, d],
         Site::Facet(f) => [f, f, u32::MAX, u32::MAX],
         Site::Edge([a, b]) => [a, b, u32::MAX, u32::MAX],
+        Site::Between([a, b], point) => [a, b, point, u32::MAX],
     }
 }
 
@@ -111,10 +113,14 @@ fn to_site<const D: usize>(assembly: &Assembly<D>, pair: u32, [a, b, c, d]: [u32
     };
     if [c, d] == [u32::MAX; 2] {
         let site = if a == b { Site::Facet(a) } else { Site::Edge([a, b]) };
-        return contact.has_before_round(pair as usize, site).then_some(site);
+        return contact.has_between_nodes(pair as usize, site).then_some(site);
     }
     if d == u32::MAX {
-        return (a == b && is_node(&a)).then_some(Site::Multiplier(a, c));
+        let site = Site::Between([a, b], c);
+        return match a == b {
+            true => is_node(&a).then_some(Site::Multiplier(a, c)),
+            false => contact.has_between_nodes(pair as usize, site).then_some(site),
+        };
     }
     if a != b {
         let is_crossing = [a, b].iter().all(is_node) && [c, d].iter().all(|n| is_node(n) || is_corner(n));
