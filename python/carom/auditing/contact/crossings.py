@@ -1,4 +1,4 @@
-"""Edges of bodies in space, and where they cross."""
+"""Where edges of bodies in space cross."""
 
 from __future__ import annotations
 
@@ -6,9 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from carom.auditing.arrays import Array, Indices, cross, einsum
-from carom.auditing.bodies.body import AuditBody
-from carom.auditing.mesh.facets import grouped
+from carom.auditing.arrays import Array, cross, einsum
+from carom.auditing.contact.edges import Edges, closest
 from carom.auditing.targets.feet import BEYOND
 
 
@@ -19,7 +18,7 @@ class Crossings:
     Parameters
     ----------
     source, target
-        Ends of both edges in the numbering of the model, shape [count, 2].
+        The edges in the numbering of the model.
     gap
         Distance along the normal [m], shape [count].
     normal
@@ -30,26 +29,15 @@ class Crossings:
         How far it is beyond the end of an edge, in its length, shape [count].
     """
 
-    source: Indices
-    target: Indices
+    source: Edges
+    target: Edges
     gap: Array
     normal: Array
     along: Array
     beyond: Array
 
 
-def edges(body: AuditBody) -> Indices:
-    """Return the straight lines from node to node around the facets that may touch, [count, 2]."""
-    lines: list[Indices] = []
-    for kind, _, facets in grouped(body.facets, body.dimension):
-        for side in kind.facets:
-            ends = [side[:2]] if len(side) == 2 else [side[[0, 2]], side[[2, 1]]]
-            lines += [facets[:, pair] for pair in ends]
-    every: Indices = np.unique(np.sort(np.concatenate(lines), axis=1), axis=0)
-    return every + body.span.start
-
-
-def crossings(position: Array, source: Indices, target: Indices, towards: Array) -> Crossings:
+def crossings(position: Array, source: Edges, target: Edges, towards: Array) -> Crossings:
     """Return how edges cross those of a target, all with all.
 
     Parameters
@@ -57,25 +45,22 @@ def crossings(position: Array, source: Indices, target: Indices, towards: Array)
     position
         Where nodes are [m], shape [node_count, 3].
     source, target
-        Edges, shape [count, 2].
+        Edges.
     towards
         What normals are to point along as nearly as they can.
     """
-    number, other = (
-        grid.ravel() for grid in np.meshgrid(range(len(source)), range(len(target)), indexing="ij")
-    )
+    every = np.meshgrid(np.arange(len(source)), np.arange(len(target)), indexing="ij")
+    number, other = (grid.ravel() for grid in every)
     source, target = source[number], target[other]
-    (a, b), (c, d) = (position[ends].transpose(1, 0, 2) for ends in (source, target))
-    e, f, offset = b - a, d - c, a - c
+    along = closest(source, target, position)
+    (x, e, _), (y, f, _) = (
+        source.points(along[:, 0], position),
+        target.points(along[:, 1], position),
+    )
     normal = cross(e, f)
     normal = normal / np.linalg.norm(normal, axis=1, keepdims=True)
     normal = np.where((normal @ towards < 0.0)[:, None], -normal, normal)
-    # a + s e and c + t f are closest where the line between them is at right angles to both.
-    ee, ff, ef = (einsum("ki,ki->k", x, y) for x, y in ((e, e), (f, f), (e, f)))
-    on_e, on_f = (einsum("ki,ki->k", x, offset) for x in (e, f))
-    square = ee * ff - ef * ef
-    along = np.stack([ef * on_f - ff * on_e, ee * on_f - ef * on_e], axis=1) / square[:, None]
-    gap = einsum("ki,ki->k", normal, offset)
+    gap = einsum("ki,ki->k", normal, x - y)
     within = np.isfinite(gap) & (np.abs(along - 0.5) <= 0.5 + 2 * BEYOND).all(axis=1)
     return Crossings(
         source=source,
@@ -101,7 +86,11 @@ def drawn_depths(points: Array, found: Crossings, shifts: tuple[int, int]) -> Ar
     """
     depths = np.zeros(len(found.gap))
     for k in np.flatnonzero(np.isfinite(found.gap)):
-        ends = (found.source[k : k + 1] - shifts[0], found.target[k : k + 1] - shifts[1])
-        gap = float(crossings(points, *ends, found.normal[k]).gap[0])
+        one = np.array([k])
+        both = (
+            found.source[one].numbered_from(-shifts[0]),
+            found.target[one].numbered_from(-shifts[1]),
+        )
+        gap = float(crossings(points, *both, found.normal[k]).gap[0])
         depths[k] = max(-gap, 0.0) if np.isfinite(gap) else 0.0
     return depths

@@ -8,7 +8,8 @@ import numpy as np
 
 from carom.auditing.arrays import Array, Indices, Mask, einsum
 from carom.auditing.bodies.body import AuditBody
-from carom.auditing.contact.crossings import Crossings, crossings, edges
+from carom.auditing.contact.crossings import Crossings, crossings
+from carom.auditing.contact.edges import Edges, edges
 from carom.auditing.contact.obstacles import Cornered, Round
 from carom.auditing.contact.rounding import nearest_places
 from carom.auditing.mesh.facets import grouped
@@ -74,15 +75,16 @@ def round_in(body: AuditBody, shape: Round) -> float:
 
 def crossed(body: AuditBody, other: AuditBody | Cornered) -> float:
     """Return how deep the deepest edges that cross in space are as drawn [m]."""
-    mine, own = edges(body) - body.span.start, _beside(body.facets, body.points)
+    mine = edges(body).numbered_from(-body.span.start)
+    own = _beside(body.facets, body.points)
     if isinstance(other, Cornered):
         corners, theirs, their_own = (
             other.corners,
-            other.edges,
+            Edges.straight(other.edges),
             _beside(other.facets, other.corners),
         )
     else:
-        corners, theirs = other.points, edges(other) - other.span.start
+        corners, theirs = other.points, edges(other).numbered_from(-other.span.start)
         their_own = _beside(other.facets, other.points)
     places = np.concatenate([body.points, corners])
     low, high = (
@@ -90,7 +92,7 @@ def crossed(body: AuditBody, other: AuditBody | Cornered) -> float:
         np.minimum(body.points.max(axis=0), corners.max(axis=0)),
     )
     mine = _near(mine, body.points, low, high)
-    theirs = _near(theirs, corners, low, high) + len(body.points)
+    theirs = _near(theirs, corners, low, high).numbered_from(len(body.points))
     found = crossings(places, mine, theirs, np.ones(3))
     deepest = 0.0
     for k in np.flatnonzero(np.isfinite(found.gap)):
@@ -100,8 +102,8 @@ def crossed(body: AuditBody, other: AuditBody | Cornered) -> float:
 
 def _depth(found: Crossings, k: int, own: Sides, theirs: Sides, first: int) -> float:
     """Return how deep two edges are, zero of those that do not look at one another [m]."""
-    source = own[_key(found.source[k])]
-    target = theirs[_key(found.target[k] - first)]
+    source = own[_key(found.source.ends[k])]
+    target = theirs[_key(found.target.ends[k] - first)]
     for sign in (1.0, -1.0):
         normal = sign * found.normal[k]
         if _is_between(normal, target) and _is_between(-normal, source):
@@ -138,9 +140,8 @@ def _beside(facets: Indices, points: Array) -> Sides:
     return found
 
 
-def _near(ends: Indices, points: Array, low: Array, high: Array) -> Indices:
+def _near(lines: Edges, points: Array, low: Array, high: Array) -> Edges:
     """Return the edges whose boxes meet a box."""
-    places = points[ends]
+    places = points[np.column_stack([lines.ends, lines.far])]
     meets = (places.min(axis=1) <= high) & (places.max(axis=1) >= low)
-    near: Indices = ends[meets.all(axis=1)]
-    return near
+    return lines[meets.all(axis=1)]

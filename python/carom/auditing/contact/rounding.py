@@ -9,7 +9,7 @@ import numpy as np
 
 from carom.auditing.arrays import Array, Indices
 from carom.auditing.bodies.body import AuditBody
-from carom.auditing.contact.crossings import edges
+from carom.auditing.contact.edges import edges
 from carom.auditing.contact.obstacles import Round, Shape
 from carom.auditing.targets.sheet import FlatPatches, Sheet
 
@@ -55,9 +55,8 @@ def nearest_places(
     if not isinstance(shape, Round) or shape.sign < 0:
         return
     if shape.has_axis:
-        lines = edges(body) - body.span.start
-        lines = lines[(lines == node).any(axis=1)] if known is None else known[None, :2]
-        for a, b in lines:
+        around = edges(body).numbered_from(-body.span.start).at(node).ends
+        for a, b in around if known is None else known[None, :2]:
             offsets = shape.offsets(position[[a, b]])
             across = offsets[1] - offsets[0]
             square = float(across @ across)
@@ -65,10 +64,10 @@ def nearest_places(
             place = position[a] + s * (position[b] - position[a])
             yield _at(shape, place, [(int(a), 1.0 - s), (int(b), s)])
         return
-    around = body.facets[(body.facets == node).any(axis=1)]
+    facets = body.facets[(body.facets == node).any(axis=1)]
     if known is not None:
-        around = body.facets[np.isin(body.facets, known).all(axis=1)]
-    for facet in around:
+        facets = body.facets[np.isin(body.facets, known).all(axis=1)]
+    for facet in facets:
         sheet = Sheet(FlatPatches(facet[None]))
         weights = sheet.closest_weights(shape.centre, position)
         stencil = [(int(n), float(w)) for n, w in zip(facet, weights, strict=True)]

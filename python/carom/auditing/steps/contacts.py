@@ -18,9 +18,13 @@ from carom.auditing.steps.ellipse import Ellipse
 BEARS = 0.5
 """Facets bear a contact at their node that face it at least this well, relative to the best."""
 
-AT_NODE, AT_EDGES, BEFORE_ROUND, AT_CORNER, AT_MULTIPLIER = range(5)
+AT_NODE, AT_EDGES, BEFORE_ROUND, AT_CORNER, AT_MULTIPLIER, BETWEEN_NODES = range(6)
 """Where contacts are: at a node, where edges cross, on a facet or edge before what is round, on a
-facet at a corner of an obstacle, or in the mean under the multiplier of a node."""
+facet at a corner of an obstacle, in the mean under the multiplier of a node, or at a point of an
+edge between its nodes."""
+
+ALONG = 1e-6
+"""Points of an edge whose weights differ by less are one."""
 
 
 @dataclass(frozen=True)
@@ -221,6 +225,8 @@ class Contacts:
                 nodes = [int(self.node[k])]
             elif site == AT_MULTIPLIER:
                 nodes = [int(self.node[k]), int(self.facet[k])]
+            elif site == BETWEEN_NODES:
+                nodes.append(round(self.shares[k, 0] / ALONG))
             others = sorted(set(self.followed[k, :2].tolist())) if site == AT_EDGES else []
             keys.append((int(self.target[k]), int(site), *nodes, *others))
         return keys

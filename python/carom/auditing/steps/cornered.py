@@ -6,10 +6,11 @@ import numpy as np
 
 from carom.auditing.arrays import Array
 from carom.auditing.bodies.body import AuditBody
-from carom.auditing.contact.crossings import crossings, drawn_depths, edges
+from carom.auditing.contact.crossings import crossings, drawn_depths
+from carom.auditing.contact.edges import Edges, edges
 from carom.auditing.contact.obstacles import Cornered
 from carom.auditing.steps.contacts import AT_CORNER, AT_EDGES
-from carom.auditing.steps.place import Place, weighted
+from carom.auditing.steps.place import Place
 from carom.auditing.targets.feet import BEYOND, Target
 
 ON_END = 1e-9
@@ -64,10 +65,10 @@ def at_edges(
     Normals point along `towards` as nearly as they can.
     """
     body, node = source
-    mine = edges(body)
-    mine = mine[(mine == node).any(axis=1)]
+    mine = edges(body).at(node)
+    theirs = Edges.straight(shape.edges).numbered_from(len(position))
     places = np.concatenate([position, shape.corners + shift])
-    found = crossings(places, mine, shape.edges + len(position), towards)
+    found = crossings(places, mine, theirs, towards)
     drawn = np.concatenate([body.points, shape.corners])
     depths = drawn_depths(drawn, found, (body.span.start, len(position) - len(body.points)))
     return [
@@ -76,7 +77,7 @@ def at_edges(
             normal=found.normal[k],
             site=AT_EDGES,
             depth=float(depths[k]),
-            sources=weighted(found.source[k], float(found.along[k, 0])),
+            sources=found.source.stencil(int(k), float(found.along[k, 0])),
         )
         for k in np.flatnonzero(np.isfinite(found.gap))
     ]

@@ -9,17 +9,25 @@ from typing import Any
 import numpy as np
 
 from carom.auditing.arrays import Array, Indices
-from carom.auditing.contact.crossings import crossings, drawn_depths, edges
+from carom.auditing.contact.crossings import crossings, drawn_depths
+from carom.auditing.contact.edges import edges
 from carom.auditing.contact.obstacles import Cornered
 from carom.auditing.contact.rounding import nearest_places
 from carom.auditing.model import AuditModel
+from carom.auditing.steps.between import between_nodes
 from carom.auditing.steps.bonds import carried
-from carom.auditing.steps.choosing import settle
-from carom.auditing.steps.contacts import AT_EDGES, AT_MULTIPLIER, BEFORE_ROUND, Contacts
+from carom.auditing.steps.choosing import goes_on, settle
+from carom.auditing.steps.contacts import (
+    AT_EDGES,
+    AT_MULTIPLIER,
+    BEFORE_ROUND,
+    BETWEEN_NODES,
+    Contacts,
+)
 from carom.auditing.steps.cornered import ON_END, at_corners, at_edges, on_obstacle
 from carom.auditing.steps.multipliers import at_multipliers
-from carom.auditing.steps.place import Place, weighted
-from carom.auditing.targets.feet import BEYOND, CORNER, Feet, Target
+from carom.auditing.steps.place import Place
+from carom.auditing.targets.feet import BEYOND, Feet
 
 SAME = 1e-7
 """Feet whose gap [model size] and normal differ by no more are equally good: at edges of facets."""
@@ -247,7 +255,9 @@ class _Finder:
         if self._like is not None:
             return int(self._like.site[contact]) == site
         place = self._places[contact]
-        return place.clamped or not place.misfit <= NOT_AT_NODE
+        # Along a straight edge on what is nearly flat, gaps and normals change little.
+        least = SAME if site == BETWEEN_NODES else NOT_AT_NODE
+        return place.clamped or not place.misfit <= least
 
     def _before_round(self, number: int, contact: int) -> None:
         """Look for the facet or edge around the node that is before something round."""
@@ -304,6 +314,8 @@ class _Finder:
                 crossed = self._at_edges(number, int(contact))
                 if crossed:
                     self._places[contact], self._alike[int(contact)] = crossed[0], crossed
+            if model.dimension == 3 and self._may_be(BETWEEN_NODES, contact):
+                self._between_nodes(number, int(contact))
 
     def _at_node(self, feet: Feet, mine: Indices, contact: int, number: int) -> None:
         misfit = self._misfit(contact, feet.gap[mine], feet.normal[mine])
@@ -314,7 +326,7 @@ class _Finder:
         if self._like is not None:
             near = (int(self._like.facet[contact]), self._like.normal[contact])
             target = self._model.targets[number]
-            good = np.array([_next(feet, mine, near, target, otherwise=int(good[0]))])
+            good = np.array([goes_on(feet, mine, near, target, otherwise=int(good[0]))])
         first = self._model.bodies[number].span.start
         alike = [
             Place(
@@ -335,13 +347,39 @@ class _Finder:
         if len(alike) > 1:
             self._alike[contact] = alike
 
+    def _between_nodes(self, number: int, contact: int) -> None:
+        """Look for the point of an edge around the node that is before a facet of the target."""
+        places = self._points_between(number, contact)
+        best = min(places, key=lambda place: place.misfit, default=self._places[contact])
+        if self._like is not None or best.misfit < self._places[contact].misfit:
+            self._places[contact] = best
+            self._alike.pop(contact, None)
+
+    def _points_between(self, number: int, contact: int) -> list[Place]:
+        """Return the places of the points of edges around the node."""
+        model, source = self._model, int(self._source[contact])
+        if source >= len(model.bodies) or source == number or model.dimension == 2:
+            return []
+        own, known = (source, int(self._node[contact])), self._known(contact)
+        return self._fitted(contact, between_nodes(model, own, number, self._position, known))
+
+    def _known(self, contact: int) -> tuple[Indices, Array, int] | None:
+        """Return nodes and weights of the source of the contact that one is like, and its facet."""
+        like = self._like
+        if like is None:
+            return None
+        return like.sources[contact], like.shares[contact], int(like.facet[contact])
+
     def _other_places(self, contact: int) -> list[Place]:
         """Return where edges cross, or corners are, that fit a contact as well as its node does."""
         target = int(self._target[contact])
         if self._is_round(contact):
             return []
         if target >= 0:
-            return self._at_edges(target, contact) if self._model.dimension == 3 else []
+            most = self._places[contact].misfit + SAME
+            points = self._points_between(target, contact)
+            crossed = self._at_edges(target, contact) if self._model.dimension == 3 else []
+            return [*crossed, *(place for place in points if place.misfit <= most)]
         number = -1 - target
         if number >= len(self._model.obstacles):
             return []
@@ -354,17 +392,16 @@ class _Finder:
         model, source = self._model, self._source[contact]
         if source >= len(model.bodies) or number >= len(model.bodies):
             return []
+        mine, theirs = edges(model.bodies[source]), edges(model.bodies[number])
         if self._like is None:
-            mine = edges(model.bodies[source])
-            mine = mine[(mine == self._node[contact]).any(axis=1)]
-            theirs = edges(model.bodies[number])
+            mine = mine.at(int(self._node[contact]))
         else:
-            mine = self._like.sources[contact : contact + 1, :2]
-            theirs = self._like.followed[contact : contact + 1, :2]
+            mine = mine.between(self._like.sources[contact, :2])
+            theirs = theirs.between(self._like.followed[contact, :2])
         found = crossings(self._position, mine, theirs, self._normal[contact])
         if source == number:
             # Edges with a node in common meet there.
-            ends = (found.source[:, :, None] == found.target[:, None]).any(axis=(1, 2))
+            ends = (found.source.ends[:, :, None] == found.target.ends[:, None]).any(axis=(1, 2))
             found = replace(found, gap=np.where(ends, np.inf, found.gap))
         depths: list[float | None] = [None] * len(found.gap)
         misfit = self._misfit(contact, found.gap, found.normal)
@@ -385,8 +422,8 @@ class _Finder:
                 normal=found.normal[k],
                 misfit=float(misfit[k]),
                 site=AT_EDGES,
-                sources=weighted(found.source[k], found.along[k, 0]),
-                followed=weighted(found.target[k], found.along[k, 1]),
+                sources=found.source.stencil(int(k), float(found.along[k, 0])),
+                followed=found.target.stencil(int(k), float(found.along[k, 1])),
                 depth=depths[k],
             )
             for k in good
@@ -460,39 +497,3 @@ def _padded(stencils: list[list[tuple[int, float]]]) -> tuple[Indices, Array]:
         for j, (node, weight) in enumerate(stencil):
             nodes[k, j], weights[k, j] = node, weight
     return nodes, weights
-
-
-def _next(
-    feet: Feet, mine: Indices, known: tuple[int, Array], target: Target, *, otherwise: int
-) -> int:
-    """Return which of the feet `mine` of a point goes on from a known one.
-
-    It stays on its facet. On a smooth target it goes on to the next one where the foot is on that;
-    beyond an edge, beside both, it stays.
-
-    Parameters
-    ----------
-    feet
-        Feet of points.
-    mine
-        Those of the point.
-    known
-        Facet of the known foot, and its normal.
-    target
-        The target.
-    otherwise
-        What to return where none goes on from it.
-    """
-    facet, normal = known
-    own = feet.facet[mine] == facet
-    on = feet.beyond[mine] == 0.0
-    walks = facet >= 0 and bool(target.smooth[facet])
-    choices = [own & on] if walks else [own]
-    if walks:
-        # Sides beyond a corner are not beside it.
-        beside = np.isin(target.facets[feet.facet[mine]], target.facets[facet]).any(axis=1)
-        beside &= feet.normal[mine] @ normal > CORNER
-        beside &= target.smooth[feet.facet[mine]]
-        choices += [beside & on, own]
-    found = next((chosen for chosen in choices if chosen.any()), None)
-    return otherwise if found is None else int(mine[found.argmax()])

@@ -63,8 +63,3 @@ class Place:
         for own, weight in self.sources:
             weights[own] = weights.get(own, 0.0) + weight
         return weights.get(node, 0.0) >= max(weights.values()) - ALIKE
-
-
-def weighted(ends: Indices, along: float) -> list[tuple[int, float]]:
-    """Return the ends of an edge with their weights at a part of the way along it."""
-    return [(int(ends[0]), 1.0 - along), (int(ends[1]), along)]
