@@ -62,9 +62,10 @@ impl ContactSurface {
         let (there, x) = (below(s), end.at(s));
         let gap = there.normal.dot(&(x - there.point));
         let before = self.gap_at(f, &start.at(s), path.start);
+        let deepest = -SEARCH.depth * diameter(&self.facets[f as usize], path.end);
         let [a, b] = of_another.normals(s, path.end);
-        let goes_in =
-            self.is_over(f, &x, path.end) && there.normal.dot(&(a + b)) < 0.0 && gap < before.min(0.0);
+        let is_beside = self.is_over(f, &x, path.end) && there.normal.dot(&(a + b)) < 0.0;
+        let goes_in = is_beside && gap < before.min(0.0) && gap > deepest;
         goes_in.then_some(Dip { depth: -gap, facet: f, point: point as u32 })
     }
 

@@ -3,7 +3,7 @@
 use super::crossing::is_foremost;
 use super::{Crossing, SurfaceEdge};
 use crate::Path;
-use crate::tolerances::EDGES;
+use crate::tolerances::{EDGES, SEARCH};
 
 /// Two edges that have gone through one another by the end of a path.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -33,7 +33,9 @@ impl Pierced {
         let crosses = start.sine.min(end.sine) >= EDGES.parallel
             && end.reach().into_iter().all(|reach| reach >= -EDGES.round_off)
             && start.normal.dot(&end.normal) > 0.0;
-        let goes_in = end.gap * sign < (start.gap * sign).min(0.0);
+        // Behind what is farther inside, edges are on the other side of a wall.
+        let deepest = -SEARCH.depth * a.chord().norm().min(b.chord().norm());
+        let goes_in = end.gap * sign < (start.gap * sign).min(0.0) && end.gap * sign > deepest;
         if !crosses
             || !goes_in
             || !is_foremost(&n, &b.slope(on_t), &normals)
