@@ -124,7 +124,9 @@ impl ContactSurface {
     ) -> Option<Dip> {
         let mut best: Option<Dip> = None;
         swept.tree.overlapping(&of_another.edge.path(path.start, path.end), |f, _| {
-            let dip = self.dip_of(f, of_another, path).filter(|dip| dip.depth >= MEASURE.accounts * depth);
+            // What is smooth is not quite what is measured.
+            let accounts = if self.is_smooth_over(f) { MEASURE.witnessed } else { MEASURE.accounts };
+            let dip = self.dip_of(f, of_another, path).filter(|dip| dip.depth >= accounts * depth);
             best = dip.into_iter().chain(best).reduce(Dip::shallower);
         });
         best

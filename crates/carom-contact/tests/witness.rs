@@ -4,7 +4,8 @@ use carom_contact::{
     Boundaries, Candidate, ContactModel, ContactSurface, Discretisation, Feature, Pair, Path, Search, Site,
     Target, Witness,
 };
-use carom_mesh::{Mesh, Surface, Vector, generate};
+use carom_mesh::generate::Grid;
+use carom_mesh::{CellKind, Mesh, Surface, Vector, generate};
 
 /// Two bodies in space, each checked against the other.
 struct Scene {
@@ -120,4 +121,64 @@ fn what_touches_is_no_witness() {
     let (depth, witnesses, candidates) = Scene::new([&below, &above], |_| Vector::zeros()).judged();
     assert!(depth < 1e-15, "{depth:e}");
     assert_eq!((witnesses.len(), candidates.len()), (0, 0));
+}
+
+/// Symptom guarded against: coarse bodies of second order went into others by up to a tenth of a cell, where their sides or edges bulge between
+/// the nodes.
+#[test]
+fn an_edge_in_a_side_of_second_order_touches_between_its_nodes() {
+    let grid = Grid { corner: [0.0; 3], size: [1.0; 3], divisions: [1, 1, 1] };
+    let mut tops = Vec::new();
+    for kind in [CellKind::Hex20, CellKind::Hex27] {
+        let flat = grid.mesh(kind).expect("valid");
+        // Its top is as high as 4 h x (1 - x), and above it lies a bar whose ends are beyond it.
+        let bulge = |x: &Vector<3>| x + Vector::<3>::z() * (0.2 * x[2] * x[0] * (1.0 - x[0]) * 4.0);
+        let below =
+            Mesh::new(flat.nodes().iter().map(bulge).collect(), flat.blocks().to_vec()).expect("valid");
+        let above = generate::grid([-0.5, 0.3, 1.201], [2.0, 0.25, 0.3], [1, 1, 1]).expect("valid");
+        let bodies = [&below, &above];
+        let falls = |x: &Vector<3>| Vector::<3>::new(0.0, 0.0, if x[2] > 1.2005 { -0.011 } else { 0.0 });
+        let mut scene = Scene::new(bodies, falls);
+        let (depth, _, candidates) = scene.judged();
+        assert!((depth - 0.01).abs() < 1e-4, "{depth}");
+        let end = |n: u32| scene.end[n as usize];
+        let between = candidates.iter().filter(|c| matches!(c.site, Site::Between(..) | Site::Crossing(..)));
+        let found: Vec<_> = between.map(|c| (c.site, scene.model.evaluate(c, &end))).collect();
+        let deepest = found.iter().map(|(_, c)| c.gap).fold(0.0, f64::min);
+        assert!((deepest + 0.01).abs() < 1e-3, "{kind:?} {candidates:?} {deepest}");
+        assert!(found.iter().all(|(_, c)| c.gap > -0.011 && c.frame[(0, 2)].abs() > 0.99), "{found:?}");
+        tops.push(found.iter().filter(|(site, _)| matches!(site, Site::Between(..))).count());
+    }
+    assert!(tops.iter().all(|count| *count > 0), "{tops:?}");
+}
+
+/// The normal row is the gradient of the gap, and the forces of both sides have no moment: of points of edges before curved facets, and of curved
+/// edges that cross.
+#[test]
+fn gaps_between_nodes_change_as_their_rows_say() {
+    let grid = |corner: [f64; 3]| Grid { corner, size: [1.0; 3], divisions: [1, 1, 1] };
+    let bent = |mesh: Mesh<3>, by: f64| {
+        let at = |x: &Vector<3>| x + Vector::<3>::new(0.3 * x[1] * x[1], 0.0, by * x[0] * (1.0 - x[0]));
+        Mesh::new(mesh.nodes().iter().map(at).collect(), mesh.blocks().to_vec()).expect("valid")
+    };
+    let below = bent(grid([0.0; 3]).mesh(CellKind::Hex20).expect("valid"), 0.4);
+    let above = bent(grid([0.2, -0.3, 1.19]).mesh(CellKind::Hex27).expect("valid"), -0.3);
+    let mut scene =
+        Scene::new([&below, &above], |x| Vector::<3>::new(0.0, 0.0, if x[2] > 1.105 { -0.03 } else { 0.0 }));
+    let (_, _, candidates) = scene.judged();
+    let is_between = |c: &&Candidate| matches!(c.site, Site::Between(..) | Site::Crossing(..));
+    let between: Vec<_> = candidates.iter().filter(is_between).collect();
+    assert!(!between.is_empty());
+    let motion = |n: u32| Vector::<3>::from_fn(|i, _| (f64::from(n) * 1.7 + i as f64 * 2.3).sin());
+    for candidate in between {
+        let gap = |h: f64| scene.model.evaluate(candidate, &|n| scene.end[n as usize] + motion(n) * h).gap;
+        let contact = scene.model.evaluate(candidate, &|n| scene.end[n as usize]);
+        let h = 1e-5;
+        let rate = (gap(h) - gap(-h)) / (2.0 * h);
+        assert!((rate - contact.relative(|n| motion(n as u32))[0]).abs() < 1e-7, "{candidate:?} {rate}");
+        let mut forces = vec![Vector::zeros(); scene.end.len()];
+        contact.add_force(&Vector::<3>::x(), &mut forces);
+        let moment: Vector<3> = scene.end.iter().zip(&forces).map(|(x, f)| x.cross(f)).sum();
+        assert!(forces.iter().sum::<Vector<3>>().norm() < 1e-14 && moment.norm() < 1e-13);
+    }
 }
