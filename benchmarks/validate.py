@@ -18,6 +18,7 @@ sys.path.insert(0, str(Path(__file__).parents[1] / "tests" / "validation"))
 
 from sections import (
     bars,
+    beams,
     cohesion,
     conservation,
     cylinders,
@@ -61,6 +62,7 @@ PARTS = {
     "materials": materials.materials_section,
     "modes": materials.modes_section,
     "plates": impacts.plates_section,
+    "beams": beams.beams_section,
     "throws": impacts.throws_section,
 }
 """What the page consists of, in its order; each part begins with a heading of the second level."""

@@ -89,12 +89,14 @@ class GradedSphere:
         points[:, -1] += 1.0
         return cls(radius * points, cells, radius)
 
-    def mirrored(self) -> GradedSphere:
-        """Return this and its mirror image in the plane x = 0."""
-        on_plane = self.points[:, 0] == 0.0
+    def mirrored(self, axis: int = 0) -> GradedSphere:
+        """Return this and its mirror image in the plane x = 0, or y = 0 where the axis is 1."""
+        on_plane = self.points[:, axis] == 0.0
         image = np.arange(len(self.points))
         image[~on_plane] = len(self.points) + np.arange(int((~on_plane).sum()))
-        points = np.vstack([self.points, self.points[~on_plane] * [-1.0, 1.0, 1.0]])
+        turned = self.points[~on_plane]
+        turned[:, axis] *= -1.0
+        points = np.vstack([self.points, turned])
         cells = np.vstack([self.cells, image[self.cells][:, [0, 3, 2, 1, 4, 7, 6, 5]]])
         return GradedSphere(points, cells, self.radius)
 

@@ -60,6 +60,7 @@ LOOKS: dict[str, dict[str, Any]] = {
     "27_backspin": {"strobe": tuple(0.03 * k for k in range(30))},
     "28_bowling": {"strobe": tuple(0.15 * k for k in range(4))},
     "29_wall": {"times": 0.25, "field": "body"},
+    "30_marimba": {"times": 4e-4, "field": "von-mises", "magnification": 100.0, "edges": False},
 }
 """How the result of each script is drawn; those with nothing have a picture of the README."""
 

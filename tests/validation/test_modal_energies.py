@@ -8,6 +8,9 @@ from runs import observed_order
 
 import carom
 
+WIDE = {"kind": "rectangle", "corner": [0.0, 1e-3], "size": [1.0, 0.4], "divisions": [3, 1]}
+"""A mesh without a node inside."""
+
 
 def test_a_bar_that_was_hit_rings_in_its_odd_modes(tmp_path):
     """Behind the impact the long bar moves at v/2 and is strained by v/2c everywhere.
@@ -39,56 +42,57 @@ def test_all_modes_have_all_of_the_energy_of_a_small_strain(tmp_path):
     assert rests[2] < 1e-11
 
 
+def thrown(dimension, speed, **given):
+    """Return a case of a block that turns and is thrown at a floor with friction."""
+    size = [1.0, 0.7, 0.6][:dimension]
+    spin = speed if dimension == 2 else [speed, -speed, 0.5 * speed]
+    return carom.Scenario.from_dict(
+        {
+            "dimension": dimension,
+            "analysis": {"end_time": 0.4, "time_step": 2e-3, "scheme": {"kind": "conserving"}},
+            "output": {"history_every": 0.05, "fields_every": 0.05},
+            "materials": {
+                "soft": {
+                    "kind": "saint-venant-kirchhoff",
+                    "young": 2700.0,
+                    "poisson": 0.3,
+                    "density": 1.0,
+                }
+            },
+            "bodies": [
+                {
+                    "name": "block",
+                    "material": "soft",
+                    "mesh": {
+                        "kind": "rectangle" if dimension == 2 else "box",
+                        "corner": [0.0, 1e-3, 0.0][:dimension],
+                        "size": size,
+                        "divisions": [3, 2, 2][:dimension],
+                    },
+                    "velocity": [0.3 * speed, -speed, 0.0][:dimension],
+                    "spin": spin,
+                }
+                | given
+            ],
+            "obstacles": [
+                {
+                    "kind": "plane",
+                    "name": "floor",
+                    "point": [0.0] * dimension,
+                    "normal": [0.0, 1.0, 0.0][:dimension],
+                }
+            ],
+            "contact": {"condition": "midpoint", "friction": 0.3},
+        }
+    )
+
+
 @pytest.mark.parametrize("dimension", [2, 3])
 def test_a_body_that_turns_and_rings_keeps_its_books_by_modes(tmp_path, dimension):
     """With all modes, what is left is what a finite strain has beside them."""
-    size = [1.0, 0.7, 0.6][:dimension]
     rests = []
     for speed in (0.2, 0.05):
-        spin = speed if dimension == 2 else [speed, -speed, 0.5 * speed]
-        scenario = carom.Scenario.from_dict(
-            {
-                "dimension": dimension,
-                "analysis": {
-                    "end_time": 0.4,
-                    "time_step": 2e-3,
-                    "scheme": {"kind": "conserving"},
-                },
-                "output": {"history_every": 0.05, "fields_every": 0.05},
-                "materials": {
-                    "soft": {
-                        "kind": "saint-venant-kirchhoff",
-                        "young": 2700.0,
-                        "poisson": 0.3,
-                        "density": 1.0,
-                    }
-                },
-                "bodies": [
-                    {
-                        "name": "block",
-                        "material": "soft",
-                        "mesh": {
-                            "kind": "rectangle" if dimension == 2 else "box",
-                            "corner": [0.0, 1e-3, 0.0][:dimension],
-                            "size": size,
-                            "divisions": [3, 2, 2][:dimension],
-                        },
-                        "velocity": [0.3 * speed, -speed, 0.0][:dimension],
-                        "spin": spin,
-                    }
-                ],
-                "obstacles": [
-                    {
-                        "kind": "plane",
-                        "name": "floor",
-                        "point": [0.0] * dimension,
-                        "normal": [0.0, 1.0, 0.0][:dimension],
-                    }
-                ],
-                "contact": {"condition": "midpoint", "friction": 0.3},
-            }
-        )
-        result = carom.run(scenario, out=tmp_path / f"{speed}")
+        result = carom.run(thrown(dimension, speed), out=tmp_path / f"{speed}")
         initial = result.summary["energy"]["initial"]
         energies = carom.modal_energies(result, count=500)["block"]
         assert_allclose(energies.total, recorded(result, "block"), rtol=0, atol=1e-10 * initial)
@@ -98,6 +102,37 @@ def test_a_body_that_turns_and_rings_keeps_its_books_by_modes(tmp_path, dimensio
         assert rings > 0.05 * initial
         rests.append(abs(energies.rest).max() / rings)
     assert rests[1] < 0.4 * rests[0] < 0.1
+
+
+@pytest.mark.parametrize("dimension", [2, 3])
+def test_a_reduced_body_has_all_of_its_energy_in_its_vibrations(tmp_path, dimension):
+    """Nothing else is in its books, whatever the strain; each keeps what it has in flight."""
+    result = carom.run(thrown(dimension, 0.2, kind="reduced", modes=3), out=tmp_path)
+    initial = result.summary["energy"]["initial"]
+    for count in (2, 500):
+        energies = carom.modal_energies(result, count=count)["block"]
+        assert_allclose(energies.total, recorded(result, "block"), rtol=0, atol=1e-12 * initial)
+        rigid = result.history["block.translation"] + result.history["block.rotation"]
+        assert_allclose(energies.rigid, rigid, rtol=0, atol=1e-12 * initial)
+        if count == 2:
+            assert energies.energies.shape == (9, 2)
+            assert energies.rest.max() > 0.02 * initial
+    assert abs(energies.rest).max() == 0.0
+    assert energies.energies.sum(axis=1).max() > 0.05 * initial
+    (impact,) = result.summary["contacts"]
+    flight = energies.times > impact["release"]
+    assert flight.sum() > 2
+    assert np.ptp(energies.energies[flight], axis=0).max() < 1e-10 * initial
+    assert np.ptp(energies.kinetic[flight], axis=0).max() > 1e-3 * initial
+
+
+def test_a_reduced_body_that_keeps_all_of_its_nodes_has_the_modes_of_the_whole(tmp_path):
+    frequencies = []
+    for given in ({}, {"kind": "reduced", "modes": 0}):
+        case = thrown(2, 0.2, mesh=WIDE, **given)
+        result = carom.run(case, out=tmp_path / given.get("kind", "whole"))
+        frequencies.append(carom.modal_energies(result, count=500)["block"].frequencies)
+    assert_allclose(*frequencies, rtol=1e-8)
 
 
 def test_a_clamped_beam_swings_in_its_first_mode(tmp_path):

@@ -65,12 +65,12 @@ def hertz(speed: float) -> tuple[float, float]:
     return 2.9432 * depth / speed, math.sqrt(RADIUS * depth)
 
 
-def graded(fine: float, until: float, coarse: float, size: float) -> Array:
+def graded(fine: float, until: float, coarse: float, size: float, *, growth: float = 1.2) -> Array:
     """Return places of nodes from 0 to `size` [m]: cells of `fine` to `until`, then wider ones."""
     places = list(np.linspace(0.0, until, round(until / fine) + 1))
     step = fine
     while places[-1] < size:
-        step = min(1.2 * step, coarse)
+        step = min(growth * step, coarse)
         places.append(places[-1] + step)
     stretched = np.array(places)
     far = stretched > until

@@ -1,6 +1,6 @@
 //! Nodal and cell data as NumPy arrays.
 
-use carom::{Model, ModelBody, State};
+use carom::{Model, ModelBody, State, VibrationEnergies};
 use carom_contact::Target;
 use carom_mesh::{CellKind, Mesh, Surface, Vector};
 use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray2};
@@ -48,6 +48,16 @@ pub fn matrices<'py, const D: usize>(py: Python<'py>, part: &ModelBody<D>) -> Py
     out.set_item("mass", PyArray1::from_slice(py, &mass.values))?;
     out.set_item("stiffness", table(py, blocks.collect(), D * D)?)?;
     out.set_item("held", PyArray1::from_iter(py, held))?;
+    Ok(out)
+}
+
+/// The vibrations of a reduced body.
+pub fn vibrations<'py>(py: Python<'py>, own: &VibrationEnergies) -> PyResult<Bound<'py, PyDict>> {
+    let out = PyDict::new(py);
+    out.set_item("frequencies", PyArray1::from_slice(py, &own.frequencies))?;
+    out.set_item("kinetic", PyArray1::from_slice(py, &own.kinetic))?;
+    out.set_item("strain", PyArray1::from_slice(py, &own.strain))?;
+    out.set_item("rigid", own.rigid)?;
     Ok(out)
 }
 

@@ -129,6 +129,23 @@ impl Simulation {
         })
     }
 
+    /// The vibrations of a reduced body at displacements [m] and velocities [m/s] of its nodes: ω [rad/s], kinetic and strain energy of each [J], and
+    /// `rigid`, the energy of translation and rotation [J]. None of any other body.
+    fn vibrations<'py>(
+        &self,
+        py: Python<'py>,
+        body: usize,
+        displacement: PyReadonlyArray2<'py, f64>,
+        velocity: PyReadonlyArray2<'py, f64>,
+    ) -> PyResult<Option<Bound<'py, PyDict>>> {
+        with!(&self.inner, run => {
+            let part = run.model().bodies.get(body).ok_or_else(|| PyIndexError::new_err(body))?;
+            let count = part.body.node_count();
+            let (u, v) = (arrays::from_rows(&displacement, count)?, arrays::from_rows(&velocity, count)?);
+            part.vibrations(&u, &v).map(|own| arrays::vibrations(py, &own)).transpose()
+        })
+    }
+
     /// The centre of mass of every body where nothing has moved [m].
     fn centres_of_mass<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
         with!(&self.inner, run => {

@@ -37,6 +37,7 @@ pub use body::fe::supports::Motion;
 pub use body::foreign::ForeignBody;
 pub use body::foreign::code::{Blocks, ForeignCode};
 pub use body::foreign::law::ForeignLaw;
+pub use body::reduced::vibrations::VibrationEnergies;
 pub use body::{Balance, Body, BodyEnd, BodyState, ContactWeights, Forecast, Guess, Interval, Jolt, Tangent};
 pub use build::{Engine, Inputs, Laws, Meshes, Surfaces, build};
 pub use contact::PosedProblem;

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
-from carom.case.body import AnyBody, Body, materials_of
+from carom.case.body import AnyBody, Body, ReducedBody, materials_of
 from carom.case.material import Material
 from carom.case.mesh import Rectangle
 from carom.messages import problem
@@ -19,7 +19,7 @@ MOST = 5
 def without_modes(body: AnyBody, materials: Mapping[str, Material]) -> str:
     """Return why the energy of a body cannot be split over modes; nothing if it can."""
     if not isinstance(body, Body):
-        return f"it is {body.kind}"
+        return "" if isinstance(body, ReducedBody) else f"it is {body.kind}"
     if any(materials[name].kind == "j2-plasticity" for name in materials_of(body)):
         return "its material flows"
     if body.growth is not None:

@@ -45,6 +45,9 @@ _ELEMENTS = {  # nodes per element: kind, by the letters that begin its name
     "T2D": {2: "line", 3: "line3"},
     "R2D": {2: "line"},
 }
+_TRIQUADRATIC = (*range(20), 26, 24, 23, 25, 21, 22, 20)
+"""Nodes of C3D27, the middle of the element first among the last seven, in the order of VTK."""
+
 _NODES = {
     "line": 2, "line3": 3, "triangle": 3, "triangle6": 6, "quad": 4, "quad8": 8, "quad9": 9,
     "tetra": 4, "tetra10": 10, "hexahedron": 8, "hexahedron20": 20, "hexahedron27": 27, "wedge": 6,
@@ -80,6 +83,15 @@ _FACES: dict[str, Sequence[tuple[int, ...]]] = {
         (2, 6, 7, 3, 18, 14, 19, 10),
         (3, 7, 4, 0, 19, 15, 16, 11),
     ],
+    # These are numbered as VTK does.
+    "hexahedron27": [
+        (0, 1, 2, 3, 8, 9, 10, 11, 24),
+        (4, 7, 6, 5, 15, 14, 13, 12, 25),
+        (0, 4, 5, 1, 16, 12, 17, 8, 22),
+        (1, 5, 6, 2, 17, 13, 18, 9, 21),
+        (2, 6, 7, 3, 18, 14, 19, 10, 23),
+        (3, 7, 4, 0, 19, 15, 16, 11, 20),
+    ],
 }
 
 
@@ -102,7 +114,7 @@ def read_abaqus(path: Path) -> FileMesh:
 
 _FACE_KINDS = {
     **{(2, 2): "line", (2, 3): "line3", (3, 3): "triangle", (3, 6): "triangle6"},
-    **{(3, 4): "quad", (3, 8): "quad8"},
+    **{(3, 4): "quad", (3, 8): "quad8", (3, 9): "quad9"},
 }
 """Kinds of faces, by the dimension of the cell and the number of their nodes."""
 
@@ -227,6 +239,8 @@ class _Reader:
         if len(flat) % width:
             raise ValueError(f"elements of type {options['TYPE']} need {width - 1} nodes each")
         elements = {flat[k]: flat[k + 1 : k + width] for k in range(0, len(flat), width)}
+        if kind == "hexahedron27":
+            elements = {n: [nodes[k] for k in _TRIQUADRATIC] for n, nodes in elements.items()}
         self.blocks.append((kind, elements))
         self._add(self.element_sets, options.get("ELSET"), dict.fromkeys(elements, True))
 

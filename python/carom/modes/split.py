@@ -9,6 +9,7 @@ import numpy as np
 
 from carom import _carom
 from carom.building.build import build
+from carom.case.body import ReducedBody
 from carom.case.scenario import Scenario
 from carom.case.vibrating import without_modes
 from carom.errors import InputError
@@ -28,7 +29,8 @@ def modal_energies(
     """Split the energy of bodies in the recorded frames of a run over their modes.
 
     A free body is seen in the frame of its mean axes, in which what it does has no part that turns
-    as a whole; one that something holds is seen as it is. Modes are those of where it is drawn.
+    as a whole; one that something holds is seen as it is. Modes are those of where it is drawn; of
+    a reduced body they are the vibrations that it steps by.
 
     Parameters
     ----------
@@ -87,7 +89,9 @@ def split(
         Names of the bodies; None for all that have modes.
     """
     return {
-        body.name: _split(fields, simulation, index, count)
+        body.name: _reduced(fields, simulation, index, count)
+        if isinstance(body, ReducedBody)
+        else _split(fields, simulation, index, count)
         for index, body in enumerate(scenario.bodies)
         if not without_modes(body, scenario.materials) and (bodies is None or body.name in bodies)
     }
@@ -116,6 +120,20 @@ def _split(whole: Fields, simulation: _carom.Simulation, index: int, count: int)
     columns = [np.array(column) for column in zip(*rows, strict=True)]
     hertz = own.frequencies[own.rigid :] / (2.0 * np.pi)
     return ModalEnergies(built["name"], fields.times, hertz, *columns)
+
+
+def _reduced(whole: Fields, simulation: _carom.Simulation, index: int, count: int) -> ModalEnergies:
+    """Split the energy of a reduced body over its vibrations, which the core reads as steps do."""
+    name = simulation.describe()["bodies"][index]["name"]
+    fields = whole.body(name)
+    rows, frequencies = [], np.zeros(0)
+    for u, v in zip(fields["displacement"], fields["velocity"], strict=True):
+        own = simulation.vibrations(index, np.ascontiguousarray(u), np.ascontiguousarray(v)) or {}
+        frequencies, kinetic, strain = own["frequencies"], own["kinetic"], own["strain"]
+        rests = kinetic[count:].sum(), strain[count:].sum()
+        rows.append((own["rigid"], kinetic[:count], strain[:count], *rests))
+    columns = [np.array(column) for column in zip(*rows, strict=True)]
+    return ModalEnergies(name, fields.times, frequencies[:count] / (2.0 * np.pi), *columns)
 
 
 def _in_mean_axes(own: Modes, points: Array, u: Array, v: Array) -> tuple[Array, Array, float]:

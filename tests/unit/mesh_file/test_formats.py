@@ -208,6 +208,34 @@ def test_faces_of_abaqus_elements_lie_on_their_sides(tmp_path, element):
     assert len(seen) == count
 
 
+def test_the_middle_of_a_c3d27_comes_before_those_of_its_faces(tmp_path):
+    """Symptom guarded against: such a cell was said to be inverted."""
+    corners = np.array(
+        [[0, 0, 0], [2, 0, 0], [2, 2, 0], [0, 2, 0], [0, 0, 2], [2, 0, 2], [2, 2, 2], [0, 2, 2]]
+    )
+    edges = [(0, 1), (1, 2), (2, 3), (3, 0), (4, 5), (5, 6), (6, 7), (7, 4)]
+    edges += [(k, k + 4) for k in range(4)]
+    faces = [(0, 1, 2, 3), (4, 7, 6, 5), (0, 4, 5, 1), (1, 5, 6, 2), (2, 6, 7, 3), (3, 7, 4, 0)]
+    groups = [*((k,) for k in range(8)), *edges, tuple(range(8)), *faces]
+    nodes = [corners[list(group)].mean(axis=0) for group in groups]
+    text = "*NODE\n" + "".join(f"{k}, {x}, {y}, {z}\n" for k, (x, y, z) in enumerate(nodes, 1))
+    text += "*ELEMENT, TYPE=C3D27\n1, " + ", ".join(map(str, range(1, 28)))
+    text += "".join(f"\n*SURFACE, NAME=S{k}\n1, S{k}" for k in range(1, 7))
+    (tmp_path / "one.inp").write_text(text)
+    arrays = read(tmp_path / "one.inp")
+    ((kind, cells),) = arrays.blocks
+    assert kind == "hex27"
+    middles = [[0, 1, 1], [2, 1, 1], [1, 0, 1], [1, 2, 1], [1, 1, 0], [1, 1, 2], [1, 1, 1]]
+    assert np.array_equal(arrays.points[cells[0][20:]], middles), "as VTK numbers them"
+    for k, face in enumerate(faces, 1):
+        side = corners[list(face)]
+        across = int(np.flatnonzero(np.ptp(side, axis=0) == 0)[0])
+        (facet,) = arrays.facet_sets[f"S{k}"]
+        on = np.flatnonzero(arrays.points[:, across] == side[0, across])
+        assert len(on) == 9
+        assert sorted(facet[0]) == on.tolist()
+
+
 def test_families_of_med_become_sets(tmp_path):
     mesh = two_cubes()
     mesh = meshio.Mesh(

@@ -150,7 +150,7 @@ class FrameChecks:
             body.strain_energy(frame.displacement[body.span], body.growth.at(frame.time))
             for body in bodies
         )
-        off = ROUND_OFF * scales.energy
+        off = scales.sums * scales.energy
         strain_off = off + sum(
             scales.strain(b, frame.displacement[b.span], frame.time) for b in bodies
         )
@@ -206,7 +206,7 @@ class FrameChecks:
             at,
         )
         parts = np.array(body.kinetic_parts(u, v))
-        off = SAFETY * ROUND_OFF * self._scales.energy
+        off = max(SAFETY * ROUND_OFF, self._scales.sums) * self._scales.energy
         self._check("kinetic parts", stored(*KINETIC_PARTS) - parts, off, at)
         off += self._scales.strain(body, u, frame.time)
         strain = body.strain_energy(u, body.growth.at(frame.time))

@@ -127,7 +127,7 @@ class LedgerChecks:
     def _sum(self, name: str, parts: list[Array], whole: Array) -> None:
         total = sum(parts, np.zeros(len(whole)))
         size = sum((np.abs(part) for part in parts), np.abs(whole))
-        off = ROUND_OFF * (self._scales.energy + size)
+        off = self._scales.sums * (self._scales.energy + size)
         self._check("books: sums", total - whole, off, name)
 
     def _entries(self) -> None:
@@ -190,7 +190,7 @@ class LedgerChecks:
         self._energies = self._energies or energies
         for body, now, start in zip(self._model.bodies, energies, self._energies, strict=True):
             entry = self._bodies[body.name]
-            off = 2 * ROUND_OFF * self._scales.energy
+            off = 2 * self._scales.sums * self._scales.energy
             strain = off + self._scales.strain(body, frame.displacement[body.span], frame.time)
             for row in np.flatnonzero(entry["time"] == frame.time):
                 at = f"{body.name}, t = {frame.time:g} s"

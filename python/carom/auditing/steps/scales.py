@@ -25,6 +25,9 @@ ROUND_OFF = 2.0**13 * EPS
 FLOOR = 4 * EPS
 """Corrections below this part of the model's size are round-off to the run."""
 
+READ = 1e-10
+"""The same of energies of reduced bodies, whose amplitudes steps read from places of nodes."""
+
 SAFETY = 10.0
 """The last correction of a run bounds its error only up to the rate of convergence."""
 
@@ -55,6 +58,9 @@ class Scales:
         self.moved = 0.0
         """Largest displacement of a node [m]."""
         self.mass = sum(body.mass.total for body in model.bodies)
+        reduced = any(body.modes is not None for body in model.bodies)
+        self.sums = READ if reduced else ROUND_OFF
+        """Relative difference of two energies, of the largest one."""
         weight = self.mass * float(np.linalg.norm(model.gravity))
         # Where nothing ever moves, round-off of places does work on weights.
         self.energy = EPS * model.size * weight

@@ -7,6 +7,7 @@ use super::load::Load;
 use super::supports::Supports;
 use crate::body::foreign::law::ForeignLaw;
 use crate::body::reduced::part::ReducedPart;
+use crate::body::reduced::vibrations::VibrationEnergies;
 use crate::body::rigid::part::RigidPart;
 use crate::body::rigid::shape::RigidSpec;
 use crate::signal::Signal;
@@ -126,6 +127,12 @@ impl<const D: usize> ModelBody<D> {
         let translation = 0.5 * momentum.norm_squared() / rigid.mass();
         let kinetic = KineticParts { translation, rotation: kinetic - translation, vibration: 0.0 };
         Momenta { momentum, angular_momentum, kinetic }
+    }
+
+    /// The vibrations of a reduced body at these displacements [m] and velocities [m/s] of its nodes; none of any other.
+    #[must_use]
+    pub fn vibrations(&self, u: &[Vector<D>], v: &[Vector<D>]) -> Option<VibrationEnergies> {
+        self.reduced.as_ref().map(|reduced| reduced.vibrations(u, v))
     }
 
     /// The mean of a nodal vector by mass: the centre of mass of places.

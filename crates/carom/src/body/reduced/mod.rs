@@ -10,6 +10,7 @@ mod equation;
 mod outline;
 pub(crate) mod part;
 mod place;
+pub(crate) mod vibrations;
 
 use std::sync::Arc;
 
