@@ -99,8 +99,8 @@ def test_coarse_bodies_of_second_order_meet_between_their_nodes(first, second, t
     result = carom.run(carom.Scenario.from_dict(case), out=tmp_path)
     assert result.summary["status"] == "completed" and result.summary["contacts"]
     worst = result.summary["penetration"]["worst"]
-    # Smooth sides, which are what nodes and edges touch, are not quite where facets are.
-    assert worst is None or worst["depth"] < 0.02 * worst["cell"]
+    # By the arcs that facets stand for.
+    assert worst is None or worst["depth"] < 0.05 * worst["cell"]
     history = result.history
     assert max(abs(history["defect"])) < 1e-11 * result.summary["energy"]["initial"]
     for axis in "xyz":

@@ -35,6 +35,21 @@ impl Scene {
         Self { model, boundaries, start, end }
     }
 
+    /// The same two, which have come to be bent: node n of the first is where the first of these `shapes` says at the start, and so on; they are moved by
+    /// `motion` [m] from there.
+    fn bent(
+        mut self,
+        shapes: [&dyn Fn(&Vector<3>) -> Vector<3>; 2],
+        motion: impl Fn(&Vector<3>) -> Vector<3>,
+    ) -> Self {
+        let first = self.model.surfaces[1].nodes[0] as usize;
+        for (n, (start, end)) in self.start.iter_mut().zip(&mut self.end).enumerate() {
+            *start = shapes[usize::from(n >= first)](start);
+            *end = *start + motion(start);
+        }
+        self
+    }
+
     /// The greatest depth at the end [m], what is inside, and the candidates that it makes.
     fn judged(&mut self) -> (f64, Vec<Witness>, Vec<Candidate>) {
         let Self { model, boundaries, start, end } = self;
@@ -131,14 +146,11 @@ fn an_edge_in_a_side_of_second_order_touches_between_its_nodes() {
     let mut tops = Vec::new();
     for kind in [CellKind::Hex20, CellKind::Hex27] {
         let flat = grid.mesh(kind).expect("valid");
-        // Its top is as high as 4 h x (1 - x), and above it lies a bar whose ends are beyond it.
+        // Its top was flat and has come to be as high as 4 h x (1 - x); above it lies a bar whose ends are beyond it.
         let bulge = |x: &Vector<3>| x + Vector::<3>::z() * (0.2 * x[2] * x[0] * (1.0 - x[0]) * 4.0);
-        let below =
-            Mesh::new(flat.nodes().iter().map(bulge).collect(), flat.blocks().to_vec()).expect("valid");
         let above = generate::grid([-0.5, 0.3, 1.201], [2.0, 0.25, 0.3], [1, 1, 1]).expect("valid");
-        let bodies = [&below, &above];
         let falls = |x: &Vector<3>| Vector::<3>::new(0.0, 0.0, if x[2] > 1.2005 { -0.011 } else { 0.0 });
-        let mut scene = Scene::new(bodies, falls);
+        let mut scene = Scene::new([&flat, &above], |_| Vector::zeros()).bent([&bulge, &|x| *x], falls);
         let (depth, _, candidates) = scene.judged();
         assert!((depth - 0.01).abs() < 1e-4, "{depth}");
         let end = |n: u32| scene.end[n as usize];
@@ -157,14 +169,13 @@ fn an_edge_in_a_side_of_second_order_touches_between_its_nodes() {
 #[test]
 fn gaps_between_nodes_change_as_their_rows_say() {
     let grid = |corner: [f64; 3]| Grid { corner, size: [1.0; 3], divisions: [1, 1, 1] };
-    let bent = |mesh: Mesh<3>, by: f64| {
-        let at = |x: &Vector<3>| x + Vector::<3>::new(0.3 * x[1] * x[1], 0.0, by * x[0] * (1.0 - x[0]));
-        Mesh::new(mesh.nodes().iter().map(at).collect(), mesh.blocks().to_vec()).expect("valid")
-    };
-    let below = bent(grid([0.0; 3]).mesh(CellKind::Hex20).expect("valid"), 0.4);
-    let above = bent(grid([0.2, -0.3, 1.19]).mesh(CellKind::Hex27).expect("valid"), -0.3);
-    let mut scene =
-        Scene::new([&below, &above], |x| Vector::<3>::new(0.0, 0.0, if x[2] > 1.105 { -0.03 } else { 0.0 }));
+    let bent =
+        |x: &Vector<3>, by: f64| x + Vector::<3>::new(0.3 * x[1] * x[1], 0.0, by * x[0] * (1.0 - x[0]));
+    let below = grid([0.0; 3]).mesh(CellKind::Hex20).expect("valid");
+    let above = grid([0.2, -0.3, 1.19]).mesh(CellKind::Hex27).expect("valid");
+    let falls = |x: &Vector<3>| Vector::<3>::new(0.0, 0.0, if x[2] > 1.105 { -0.03 } else { 0.0 });
+    let mut scene = Scene::new([&below, &above], |_| Vector::zeros())
+        .bent([&|x| bent(x, 0.4), &|x| bent(x, -0.3)], falls);
     let (_, _, candidates) = scene.judged();
     let is_between = |c: &&Candidate| matches!(c.site, Site::Between(..) | Site::Crossing(..));
     let between: Vec<_> = candidates.iter().filter(is_between).collect();

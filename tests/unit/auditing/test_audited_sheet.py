@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from carom.auditing.contact.crossings import crossings
+from carom.auditing.contact.edges import Edges
 from carom.auditing.mesh.kinds import KINDS
 from carom.auditing.mesh.quadrature import rule_of_masses, rule_of_stresses
 from carom.auditing.targets.domain import SQUARE, TRIANGLE
@@ -120,7 +121,12 @@ def test_a_box_keeps_its_sides_where_targets_are_smooth():
 
 def test_edges_cross_where_they_are_closest():
     ends = np.array([[-1.0, 0, 0.5], [1, 0, 0.5], [0.2, -1, 0], [0.2, 2, 0]])
-    found = crossings(ends, np.array([[0, 1]]), np.array([[2, 3]]), np.array([0.1, 0, 1.0]))
+    found = crossings(
+        ends,
+        Edges.straight(np.array([[0, 1]])),
+        Edges.straight(np.array([[2, 3]])),
+        np.array([0.1, 0, 1.0]),
+    )
     assert found.gap[0] == 0.5
     np.testing.assert_allclose(found.normal[0], [0, 0, 1])
     np.testing.assert_allclose(found.along[0], [0.6, 1 / 3])
@@ -154,3 +160,21 @@ def test_rules_are_exact_to_their_degree():
                 else:
                     exact = 2.0**kind.dimension * (power % 2 == 0) / (power + 1)
                 assert found == pytest.approx(exact, abs=1e-14), (name, power)
+
+
+def test_halves_of_parabolas_cross_where_they_are_closest():
+    """A parabola z = −x² / 4 from x = 0 to −1 over a straight line along y at x = −0.3."""
+    places = np.array(
+        [[-1.0, 0, -0.25], [0, 0, 0], [1, 0, -0.25], [-0.3, -1, -0.5], [-0.3, 2, -0.5]]
+    )
+    half = Edges(np.array([[0, 1]]), np.array([2]), np.array([True]))
+    found = crossings(places, half, Edges.straight(np.array([[3, 4]])), np.array([0, 0, 1.0]))
+    # The foot of the point (−0.3, −0.5) of the plane y = 0 on the parabola.
+    x = np.linspace(-1.0, 0.0, 2_000_001)
+    squares = (x + 0.3) ** 2 + (0.5 - x**2 / 4) ** 2
+    nearest = squares.argmin()
+    assert found.gap[0] == pytest.approx(np.sqrt(squares[nearest]), abs=1e-12)
+    assert found.along[0, 0] == pytest.approx(1.0 + x[nearest], abs=1e-5)
+    weights = dict(found.source.stencil(0, float(found.along[0, 0])))
+    point = sum(weight * places[node] for node, weight in weights.items())
+    np.testing.assert_allclose(point, [x[nearest], 0.0, -(x[nearest] ** 2) / 4], atol=1e-5)

@@ -302,11 +302,8 @@ impl<const D: usize> Shell<D> {
 
     fn inside_within(&self, reach: f64, other: &Self, witness: &mut impl FnMut(Feature, f64)) -> Deep<D> {
         let mut deepest = Deep::none();
-        let is_curved = D == 3 && !(self.curved.is_empty() && other.curved.is_empty());
         let mut note = |deep: Deep<D>, feature: Feature, f: u32| {
             let arcs = self.arcs[f as usize] + deep.other.map_or(0.0, |o| other.arcs[o as usize]);
-            // What is curved is followed as it is.
-            let arcs = if is_curved && matches!(feature, Feature::Edge(_)) { 0.0 } else { arcs };
             if deep.depth > MEASURE.witnessed * self.cells[f as usize] + arcs {
                 witness(feature, deep.depth);
             }
