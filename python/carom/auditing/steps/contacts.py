@@ -220,7 +220,10 @@ class Contacts:
         """What tells each contact from the others: its nodes, and what they are against."""
         keys: list[tuple[int, ...]] = []
         for k, site in enumerate(self.site):
-            nodes = sorted(set(self.sources[k].tolist()))
+            # Rows are as long as the longest: without a share a node is none of it.
+            nodes = sorted(self.sources[k, self.shares[k] != 0.0].tolist())
+            if site in (AT_EDGES, BETWEEN_NODES):
+                nodes = sorted(self.sources[k, :2].tolist())
             if site == AT_NODE:
                 nodes = [int(self.node[k])]
             elif site == AT_MULTIPLIER:
