@@ -21,6 +21,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
+from abaqus_file import written
 from runs import EXAMPLES, Array
 from scipy.special import ellipe, ellipk
 
@@ -137,17 +138,11 @@ def floor(patch: float, divisions: int) -> GradedSphere:
     return GradedSphere(FLOOR * points, cells, FLOOR)
 
 
-def written(file: Path, half: GradedSphere) -> Path:
+def half_body(file: Path, half: GradedSphere) -> Path:
     """Write half a body with its plane of symmetry, ``y``, and the outermost nodes, ``rim``."""
-    lines = ["*NODE"]
-    lines += [f"{n}, {', '.join(map(repr, x))}" for n, x in enumerate(half.points.tolist(), 1)]
-    lines += ["*ELEMENT, TYPE=C3D8, ELSET=all_cells"]
-    lines += [f"{e}, {', '.join(map(str, c))}" for e, c in enumerate((half.cells + 1).tolist(), 1)]
     far = np.linalg.norm(half.points, axis=1) > (1 - 1e-9) * half.radius
-    for name, on in (("y", half.points[:, 1] == 0.0), ("rim", far)):
-        lines += [f"*NSET, NSET={name}", *(str(n + 1) for n in np.flatnonzero(on))]
-    file.write_text("\n".join(lines) + "\n", encoding="utf-8")
-    return file
+    sets = {"y": np.flatnonzero(half.points[:, 1] == 0.0), "rim": np.flatnonzero(far)}
+    return written(file, half.points, half.cells, kind="C3D8", name="all_cells", sets=sets)
 
 
 @dataclass(frozen=True)
@@ -177,7 +172,7 @@ def throw(incidence: float, *, divisions: int, steps: int) -> Throw:
     slides = incidence * FRICTION * SPEED / KAPPA
     with tempfile.TemporaryDirectory() as folder:
         files = {
-            name: written(Path(folder) / f"{name}.inp", quarter.mirrored())
+            name: half_body(Path(folder) / f"{name}.inp", quarter.mirrored())
             for name, quarter in (("sphere", sphere), ("floor", floor(patch, divisions)))
         }
         case = carom.Scenario(

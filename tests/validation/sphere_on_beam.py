@@ -14,6 +14,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
+from abaqus_file import written
 from runs import EXAMPLES, Array
 from timoshenko import Beam
 from zener import graded
@@ -90,23 +91,24 @@ def beam(file: Path, *, at: float, cell: float, patch: float, coarse: float, who
         y = np.concatenate([-y[:0:-1], y])
     points = np.stack(np.meshgrid(x, y, z, indexing="ij"), axis=-1).reshape(-1, 3)
     shape = (len(x), len(y), len(z))
-    number = np.arange(len(points)).reshape(shape) + 1
+    number = np.arange(len(points)).reshape(shape)
     each = [
         tuple(slice(k, n - 2 + k, 2) for k, n in zip(node, shape, strict=True)) for node in NODES
     ]
     cells = np.stack([number[of_node].ravel() for of_node in each], axis=-1)
-    centres = points[cells[:, MIDDLE] - 1]
+    centres = points[cells[:, MIDDLE]]
     top = (centres[:, 2] > -1.1 * cell) & (np.abs(centres[:, :2]) < patch).all(axis=1)
     ends = np.isin(points[:, 0], x[-1:] if x[0] == 0.0 else x[[0, -1]])
-    lines = ["*NODE"]
-    lines += [f"{n}, {', '.join(map(repr, row))}" for n, row in enumerate(points.tolist(), 1)]
-    lines += ["*ELEMENT, TYPE=C3D27, ELSET=beam"]
-    lines += [f"{e}, {', '.join(map(str, row))}" for e, row in enumerate(cells.tolist(), 1)]
-    lines += ["*SURFACE, NAME=patch", *(f"{e + 1}, S2" for e in np.flatnonzero(top))]
-    for name, on in (("x", points[:, 0] == 0.0), ("y", points[:, 1] == 0.0), ("ends", ends)):
-        lines += [f"*NSET, NSET={name}", *map(str, np.flatnonzero(on) + 1)]
-    file.write_text("\n".join(lines) + "\n", encoding="utf-8")
-    return file
+    on = {"x": points[:, 0] == 0.0, "y": points[:, 1] == 0.0, "ends": ends}
+    return written(
+        file,
+        points,
+        cells,
+        kind="C3D27",
+        name="beam",
+        surfaces={"patch": [f"{e + 1}, S2" for e in np.flatnonzero(top)]},
+        sets={name: np.flatnonzero(where) for name, where in on.items()},
+    )
 
 
 @dataclass(frozen=True)

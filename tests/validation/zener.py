@@ -18,6 +18,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
+from abaqus_file import written
 from runs import EXAMPLES, Array
 from scipy.integrate import solve_ivp
 
@@ -83,16 +84,10 @@ def plate(file: Path, *, cell: float, patch: float, height: float, radius: float
     r = graded(cell, patch, height / 6, radius)
     z = -graded(cell, patch, height / 8, height)[::-1]
     points = np.stack(np.meshgrid(r, z), axis=-1).reshape(-1, 2)
-    number = np.arange(len(points)).reshape(len(z), len(r)) + 1
+    number = np.arange(len(points)).reshape(len(z), len(r))
     corners = number[:-1, :-1], number[:-1, 1:], number[1:, 1:], number[1:, :-1]
     cells = np.stack(corners, axis=-1).reshape(-1, 4)
-    lines = ["*NODE"]
-    lines += [f"{n}, {x!r}, {y!r}" for n, (x, y) in enumerate(points.tolist(), 1)]
-    lines += ["*ELEMENT, TYPE=CAX4, ELSET=plate"]
-    lines += [f"{e}, {', '.join(map(str, cell))}" for e, cell in enumerate(cells.tolist(), 1)]
-    lines += ["*NSET, NSET=x", *map(str, number[:, 0])]
-    file.write_text("\n".join(lines) + "\n", encoding="utf-8")
-    return file
+    return written(file, points, cells, kind="CAX4", name="plate", sets={"x": number[:, 0]})
 
 
 @dataclass(frozen=True)
