@@ -6,7 +6,7 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).parents[3] / "tools"))
 from get_browser import WEBGL, found
 
-__all__ = ["BLIND", "WEBGL", "Pages", "drawn", "found", "frame", "scrub_to"]
+__all__ = ["BLIND", "WEBGL", "Pages", "drawn", "found", "frame", "resize", "scrub_to"]
 
 SIZE = {"width": 1100, "height": 700}
 
@@ -48,9 +48,19 @@ def frame(page):
     return int(page.locator("#stage").get_attribute("data-frame"))
 
 
-def drawn(page):
-    """What the scene shows, as a picture."""
+def resize(page, width, height):
+    """Make its window as large and wait for what follows; a page of its own takes some seconds."""
+    page.set_viewport_size({"width": width, "height": height})
+    next_frame(page)
+
+
+def next_frame(page):
     page.evaluate(
         "() => new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))"
     )
+
+
+def drawn(page):
+    """What the scene shows, as a picture."""
+    next_frame(page)
     return page.locator("#stage canvas").screenshot()
