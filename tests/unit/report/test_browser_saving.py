@@ -19,19 +19,6 @@ def steel_page(steel, pages):
     return pages.open(steel.path / layout.REPORT)
 
 
-@pytest.fixture(scope="module")
-def in_scheme(disc, pages):
-    """Return a function that gives the page of the disc in a scheme of colours."""
-    made = {}
-
-    def page(scheme):
-        if scheme not in made:
-            made[scheme] = pages.open(disc.path / layout.REPORT, color_scheme=scheme)
-        return made[scheme]
-
-    return page
-
-
 @pytest.fixture(autouse=True)
 def nothing_goes_wrong(pages):
     yield
@@ -56,8 +43,8 @@ def colours_of(data):
 
 
 @pytest.mark.parametrize("scheme", ["light", "dark"])
-def test_the_scene_is_saved_as_a_picture(in_scheme, scheme):
-    page = in_scheme(scheme)
+def test_the_scene_is_saved_as_a_picture(disc, opened, scheme):
+    page = opened(disc.path / layout.REPORT, color_scheme=scheme)
     scrub_to(page, 10)
     data = content(page, "Save the scene as PNG")
     assert colours_of(data) > 300  # bodies, colour bar and text, not an empty canvas
@@ -125,10 +112,11 @@ def test_a_film_of_the_run_is_saved(disc_page):
 
 @pytest.mark.parametrize("scheme", ["light", "dark"])
 @pytest.mark.parametrize("width", [1400, 700])
-def test_paper_shows_the_scene_and_whole_curves(in_scheme, scheme, width):
+def test_paper_shows_the_scene_and_whole_curves(disc, opened, scheme, width):
     """Symptom guarded against: a blank scene, and curves as wide as the screen, cut at the edge."""
-    page = in_scheme(scheme)
-    resize(page, width, 800)
+    page = opened(
+        disc.path / layout.REPORT, color_scheme=scheme, viewport={"width": width, "height": 800}
+    )
     scrub_to(page, 10)
     page.emulate_media(media="print", color_scheme=scheme)
     page.set_viewport_size({"width": 680, "height": 900})  # of a page of A4

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from dataclasses import dataclass
+
 import numpy as np
 
 from carom.auditing.arrays import Array, Indices
@@ -17,14 +20,37 @@ PARTS = 16
 Stencil = list[tuple[int, float]]
 
 
+@dataclass(frozen=True)
+class Fit:
+    """What places are asked for.
+
+    Parameters
+    ----------
+    misfits
+        How far gaps [m], normals and depths as drawn [m] are from what is stored, [count].
+    most
+        The largest misfit; without one, the least that there is.
+    resolves
+        Whether it matters how deep they were inside as drawn.
+    """
+
+    misfits: Callable[[Array, Array, Array | None], Array]
+    most: float | None
+    resolves: bool
+
+
 def between_nodes(
     model: AuditModel,
     source: tuple[int, int],
     number: int,
     position: Array,
     known: tuple[Indices, Array, int] | None,
+    *,
+    fit: Fit,
 ) -> list[Place]:
     """Return the places of points of edges on the facets of a body.
+
+    There are very many of them: none is made of those that do not fit.
 
     Parameters
     ----------
@@ -36,6 +62,8 @@ def between_nodes(
         The body whose facets they are before.
     known
         If given, nodes and weights of the only point that counts, and its facet.
+    fit
+        Which of them are asked for.
     """
     span, target = model.bodies[number].span, model.targets[number]
     stencils = _points(model, source) if known is None else [_nonzero(*known[:2])]
@@ -43,16 +71,27 @@ def between_nodes(
         return []
     at = np.array([_point(stencil, position) for stencil in stencils])
     feet = target.feet(at, position[span])
-    drawn = np.array([_point(stencil, model.points) for stencil in stencils])
-    depths = np.maximum(-target.signed_distance(drawn, model.points[span]), 0.0)
     rows = np.arange(len(feet.gap))
     if known is not None and (feet.facet == known[2]).any():
         rows = np.flatnonzero(feet.facet == known[2])
+    depths = None
+    if fit.resolves:
+        drawn = np.array([_point(stencil, model.points) for stencil in stencils])
+        inside = np.maximum(-target.signed_distance(drawn, model.points[span]), 0.0)
+        depths = np.where(np.isfinite(inside), inside, 0.0)[feet.point[rows]]
+    misfit = fit.misfits(feet.gap[rows], feet.normal[rows], depths)
+    most = misfit.min(initial=np.inf) if fit.most is None else fit.most
+    kept = np.flatnonzero(misfit <= most)
     return [
         _place(
-            feet, int(row), stencils[feet.point[row]], span.start, float(depths[feet.point[row]])
+            feet,
+            int(rows[k]),
+            stencils[feet.point[rows[k]]],
+            span.start,
+            depth=0.0 if depths is None else float(depths[k]),
+            misfit=float(misfit[k]),
         )
-        for row in rows
+        for k in kept
     ]
 
 
@@ -67,14 +106,17 @@ def _points(model: AuditModel, source: tuple[int, int]) -> list[Stencil]:
     ]
 
 
-def _place(feet: Feet, row: int, stencil: Stencil, first: int, depth: float) -> Place:
+def _place(
+    feet: Feet, row: int, stencil: Stencil, first: int, *, depth: float, misfit: float
+) -> Place:
     followed = zip(feet.nodes[row], feet.weights[row], strict=True)
     return Place(
         gap=float(feet.gap[row]),
         normal=feet.normal[row],
+        misfit=misfit,
         site=BETWEEN_NODES,
         facet=int(feet.facet[row]),
-        depth=depth if np.isfinite(depth) else 0.0,
+        depth=depth,
         sources=stencil,
         followed=[(int(node) + first, float(weight)) for node, weight in followed],
     )

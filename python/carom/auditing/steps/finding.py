@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import replace
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -14,7 +15,7 @@ from carom.auditing.contact.edges import edges
 from carom.auditing.contact.obstacles import Cornered
 from carom.auditing.contact.rounding import nearest_places
 from carom.auditing.model import AuditModel
-from carom.auditing.steps.between import between_nodes
+from carom.auditing.steps.between import Fit, between_nodes
 from carom.auditing.steps.bonds import carried
 from carom.auditing.steps.choosing import goes_on, settle
 from carom.auditing.steps.contacts import (
@@ -100,8 +101,8 @@ class _Finder:
         self._alike: dict[int, list[Place]] = {}
         """Feet of a contact that are as good as one another."""
 
-    def _pushed_apart(self, contact: int, depth: float | None) -> Array:
-        """Return the interference at both ends of the step [m] of a contact as deep, shape [2].
+    def _pushed_apart(self, contact: int, depth: Array | float | None) -> Array:
+        """Return the interference at both ends of the step [m] of a contact as deep, [2, ...].
 
         Where no depth is given it is that of its node.
         """
@@ -115,11 +116,6 @@ class _Finder:
             depth = float(self._model.drawn_depths(side.source, side.target)[own])
         h = side.interference
         return np.array([h.as_state(self._step[0], depth), h.at(self._step[1], depth)])
-
-    def _stand_off(self, contact: int, depth: float | None) -> float:
-        """Return the same at the time that contacts are looked at [m]."""
-        start, end = self._pushed_apart(contact, depth)
-        return float((1.0 - self._part) * start + self._part * end)
 
     def found(self) -> Contacts:
         """Return the contacts."""
@@ -168,13 +164,17 @@ class _Finder:
         found = ball.touching(normal, self._position[span], pressed)
         return [(node + span.start, weight) for node, weight in found]
 
-    def _misfit(self, contact: int, gap: Array, normal: Array, depth: float | None = None) -> Array:
+    def _misfit(
+        self, contact: int, gap: Array, normal: Array, depth: Array | float | None = None
+    ) -> Array:
         """Return how far gaps and normals are from what is stored, in sizes of the model.
 
         Gaps are stored as the law sees them.
         """
         apart = np.linalg.norm(self._normal[contact] - normal, axis=-1)
-        stored = self._state["contact_gap"][contact] + self._stand_off(contact, depth)
+        start, end = self._pushed_apart(contact, depth)
+        pushed = (1.0 - self._part) * start + self._part * end
+        stored = self._state["contact_gap"][contact] + pushed
         misfit: Array = np.abs(gap - stored) / self._model.size + apart
         return misfit
 
@@ -355,13 +355,14 @@ class _Finder:
             self._places[contact] = best
             self._alike.pop(contact, None)
 
-    def _points_between(self, number: int, contact: int) -> list[Place]:
-        """Return the places of the points of edges around the node."""
+    def _points_between(self, number: int, contact: int, most: float | None = None) -> list[Place]:
+        """Return the places of the points of edges around the node that fit best, or so well."""
         model, source = self._model, int(self._source[contact])
         if source >= len(model.bodies) or source == number or model.dimension == 2:
             return []
         own, known = (source, int(self._node[contact])), self._known(contact)
-        return self._fitted(contact, between_nodes(model, own, number, self._position, known))
+        fit = Fit(partial(self._misfit, contact), most, bool(self._resolves[contact]))
+        return between_nodes(model, own, number, self._position, known, fit=fit)
 
     def _known(self, contact: int) -> tuple[Indices, Array, int] | None:
         """Return nodes and weights of the source of the contact that one is like, and its facet."""
@@ -377,9 +378,9 @@ class _Finder:
             return []
         if target >= 0:
             most = self._places[contact].misfit + SAME
-            points = self._points_between(target, contact)
+            points = self._points_between(target, contact, most)
             crossed = self._at_edges(target, contact) if self._model.dimension == 3 else []
-            return [*crossed, *(place for place in points if place.misfit <= most)]
+            return [*crossed, *points]
         number = -1 - target
         if number >= len(self._model.obstacles):
             return []
