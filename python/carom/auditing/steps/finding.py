@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import defaultdict
 from collections.abc import Mapping
 from dataclasses import replace
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -35,6 +35,9 @@ from carom.auditing.targets.feet import Feet
 
 SAME = 1e-7
 """Feet whose gap [model size] and normal differ by no more are equally good: at edges of facets."""
+
+NO_FACET = -1
+"""The facet of a foot on what has none."""
 
 ON_FACETS = (AT_NODE, AT_CORNER, BETWEEN_NODES)
 """What is on a facet: where that is flat, on the stored one."""
@@ -269,30 +272,31 @@ class _Finder:
             # What is stored of a contact names the node that takes most of it.
             node = int(self._node[contact])
             found = [p for p in found if p.site == AT_MULTIPLIER or p.named_by(node)]
-            facet, smooth = self._stored_facet(contact)
-            if self._sites.kind[contact] in ON_FACETS and not smooth:
-                found = [place for place in found if place.facet == facet]
-            least = min((place.misfit for place in found), default=np.inf)
-            found = [place for place in found if place.misfit <= least + SAME]
+            stored = self._stored_facets(contact)
+            on = [place for place in found if place.facet in stored.facets]
+            if self._sites.kind[contact] in ON_FACETS and not stored.smooth:
+                found = on
+            least = min((place.misfit for place in found), default=np.inf) + SAME
         else:
-            facet = int(self._like.facet[contact])
-        found = [place for place in found if place.facet == facet] or found
-        if found:
-            self._places[contact] = min(found, key=lambda place: place.misfit)
+            on = [place for place in found if place.facet == int(self._like.facet[contact])]
+            least = np.inf
+        best = [place for place in on or found if place.misfit <= least]
+        if best or found:
+            self._places[contact] = min(best or found, key=lambda place: place.misfit)
 
-    def _stored_facet(self, contact: int) -> tuple[int, bool]:
-        """Return the facet that is stored of a contact, −1 if none, and whether it is smooth."""
+    def _stored_facets(self, contact: int) -> _Stored:
+        """Return the facets that are stored of a contact."""
         of = int(self._target[contact])
         if self._sites.kind[contact] == AT_CORNER:
             of = int(self._source[contact])
         if of >= 0:
             first, target = self._model.bodies[of].span.start, self._model.targets[of]
-            facet = self._sites.facet(contact, target.facets, first)
-            return facet, facet >= 0 and bool(target.smooth[facet])
+            facets = self._sites.on(contact, target.facets, first)
+            return _Stored(facets, smooth=bool(target.smooth[facets].any()))
         shape = self._model.obstacles[-1 - of].shape
         if not isinstance(shape, Cornered):
-            return -1, False
-        return self._sites.facet(contact, shape.facets, 0), False
+            return _Stored(np.array([NO_FACET]), smooth=False)
+        return _Stored(self._sites.on(contact, shape.facets, 0), smooth=False)
 
     def _fitted(self, contact: int, places: list[Place]) -> list[Place]:
         """Return places with how far they are from what is stored of a contact."""
@@ -321,16 +325,16 @@ class _Finder:
                 self._at_node(feet, mine, contact, number)
 
     def _at_node(self, feet: Feet, mine: Indices, contact: int, number: int) -> None:
-        target, (facet, smooth) = self._model.targets[number], self._stored_facet(contact)
-        if self._like is None and not smooth:
-            mine = mine[feet.facet[mine] == facet]
+        target, stored = self._model.targets[number], self._stored_facets(contact)
+        if self._like is None and not stored.smooth:
+            mine = mine[np.isin(feet.facet[mine], stored.facets)]
             if not len(mine):
                 return
         misfit = self._misfit(contact, feet.gap[mine], feet.normal[mine])
         alike = misfit <= misfit.min() + SAME
         good = mine[alike]
         # Where smooth facets meet, the stored one, or else the one whose normal it is.
-        others = feet.facet[good] != facet
+        others = ~np.isin(feet.facet[good], stored.facets)
         foot = int(good[np.lexsort((misfit[alike], feet.beyond[good], others))[0]])
         if self._like is not None:
             near = (int(self._like.facet[contact]), self._like.normal[contact])
@@ -415,6 +419,13 @@ class _Finder:
                 stencil = (*place.sources, *place.followed)
                 grain[k] = side.grain.on(place.normal, stencil, self._position)
         return grain
+
+
+class _Stored(NamedTuple):
+    """The facets that are stored of a contact; under smooth targets these are parts of one."""
+
+    facets: Indices
+    smooth: bool
 
 
 def _around(facets: Indices, node: int) -> Indices:

@@ -68,14 +68,11 @@ class Sites:
         s = part / PARTS if int(mine.ends[0, 0]) == first else 1.0 - part / PARTS
         return mine.stencil(0, s)
 
-    def facet(self, contact: int, facets: Indices, first: int) -> int:
-        """Return which of these facets it is on, −1 if none; nodes are numbered from the first."""
+    def on(self, contact: int, facets: Indices, first: int) -> Indices:
+        """Return which of these facets, or parts of one, it is on; nodes count from the first."""
         nodes = self.facets[contact]
-        wanted = set((nodes[nodes >= 0] - first).tolist())
-        if not wanted:
-            return -1
-        around = np.flatnonzero(np.isin(facets, list(wanted)).all(axis=1))
-        return next((int(f) for f in around if set(facets[f].tolist()) == wanted), -1)
+        found: Indices = np.flatnonzero(np.isin(facets + first, nodes[nodes >= 0]).all(axis=1))
+        return found
 
     def key(self, contact: int) -> tuple[int, ...]:
         """Return what tells a contact from the others of its target."""
