@@ -1,4 +1,4 @@
-use carom_mesh::Vector;
+use carom_mesh::{Facet, Vector};
 
 use crate::path::Positions;
 use crate::{Candidate, ContactSurface, Obstacle, Pairs, Site, Target};
@@ -26,6 +26,12 @@ impl<const D: usize> ContactModel<D> {
     pub fn has_facet(&self, candidate: &Candidate) -> bool {
         let count = self.faced_surface(candidate).map_or(0, |surface| surface.facets.len());
         candidate.facet.is_none_or(|f| (f as usize) < count)
+    }
+
+    /// The facet of a candidate, if it has one.
+    #[must_use]
+    pub fn facet_of(&self, candidate: &Candidate) -> Option<&Facet> {
+        self.faced_surface(candidate)?.facets.get(candidate.facet? as usize)
     }
 
     /// The surface that a candidate faces a facet of.

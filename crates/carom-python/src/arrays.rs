@@ -1,12 +1,13 @@
 //! Nodal and cell data as NumPy arrays.
 
 use carom::{Model, ModelBody, State, VibrationEnergies};
-use carom_contact::Target;
 use carom_mesh::{CellKind, Mesh, Surface, Vector};
 use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray2};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
+
+use crate::contacts;
 
 /// One row per vector.
 pub fn vectors<'py, const D: usize>(py: Python<'py>, v: &[Vector<D>]) -> PyResult<Bound<'py, PyArray2<f64>>> {
@@ -67,15 +68,12 @@ pub fn table(py: Python<'_>, values: Vec<f64>, width: usize) -> PyResult<Bound<'
     PyArray1::from_vec(py, values).reshape([rows, width])
 }
 
-/// A state with the energy that each body has yet to give back [J] and its contacts. Of each contact it has the source node (of edges that cross, the
-/// one that takes more). The target is the index of a body, or −1 − that of an obstacle. Then follow the gap where the condition was written, the
-/// normal, the force on the source node, and the adhesion [N] that this is less by than what is in Coulomb's cone: 0 where nothing holds.
+/// A state with the energy that each body has yet to give back [J] and its [contacts](crate::contacts::set).
 pub fn state<'py, const D: usize>(
     py: Python<'py>,
     model: &Model<D>,
     state: &State<D>,
 ) -> PyResult<Bound<'py, PyDict>> {
-    let reactions = &state.reactions;
     let out = PyDict::new(py);
     out.set_item("time", state.time)?;
     let nodes = model.node_count();
@@ -83,19 +81,7 @@ pub fn state<'py, const D: usize>(
     out.set_item("velocity", vectors(py, &state.velocity[..nodes])?)?;
     out.set_item("energy_debt", PyArray1::from_slice(py, &state.energy_debt))?;
     out.set_item("contact_force", vectors(py, &state.contact_force[..nodes])?)?;
-    let target = |pair: u32| match model.assembly.contact.pairs.get(pair as usize).target {
-        Target::Surface(body) => body as i64,
-        Target::Obstacle(obstacle) => -1 - obstacle as i64,
-    };
-    out.set_item("contact_node", PyArray1::from_iter(py, reactions.iter().map(|r| i64::from(r.node()))))?;
-    out.set_item("contact_target", PyArray1::from_iter(py, reactions.iter().map(|r| target(r.pair))))?;
-    out.set_item("contact_gap", PyArray1::from_iter(py, reactions.iter().map(|r| r.contact.gap)))?;
-    let normals: Vec<Vector<D>> = reactions.iter().map(|r| r.contact.frame.row(0).transpose()).collect();
-    out.set_item("contact_normal", vectors(py, &normals)?)?;
-    let forces: Vec<Vector<D>> = reactions.iter().map(|r| r.contact.frame.tr_mul(&r.force)).collect();
-    out.set_item("contact_reaction", vectors(py, &forces)?)?;
-    let adhesions = reactions.iter().map(|r| r.adhesion.unwrap_or(0.0));
-    out.set_item("contact_adhesion", PyArray1::from_iter(py, adhesions))?;
+    contacts::set(&out, model, &state.reactions)?;
     Ok(out)
 }
 

@@ -3,6 +3,7 @@
 
 mod arrays;
 mod checkpoint;
+mod contacts;
 mod dimension;
 mod engine;
 mod error;

@@ -16,12 +16,8 @@ from carom.io.atomic import write_whole
 from carom.io.damage import DAMAGE
 from carom.io.journal import changed, going_on, shorter
 
-SCHEMA = 5
-"""Version of the layout."""
-
-WITHOUT_ADHESION = 4
-"""The version before, which says nothing of what holds contacts together; a reader refuses others.
-"""
+SCHEMA = 6
+"""Version of the layout; a reader refuses others."""
 
 _ENDS = ("start", "end")
 _ARRAYS = ("blend", "vibration", "landing", "settling")
@@ -91,33 +87,20 @@ def _write(group: h5py.Group, step: Mapping[str, Any]) -> None:
     group.create_group("ledger").attrs.update(step["ledger"])
 
 
-def read_steps(path: Path, *, holds: bool = False) -> Iterator[dict[str, Any]]:
+def read_steps(path: Path) -> Iterator[dict[str, Any]]:
     """Yield the steps of a file as they were appended.
-
-    Parameters
-    ----------
-    path
-        The file.
-    holds
-        Whether something holds surfaces together in its case.
 
     Raises
     ------
     InputError
-        The file is not of `AuditWriter`, or of a version of it that does not say enough.
+        The file is not of `AuditWriter`, or of another version of it.
     """
     try:
         with h5py.File(path, "r") as file:
             schema = file.attrs.get("schema")
-            if schema not in (WITHOUT_ADHESION, SCHEMA):
+            if schema != SCHEMA:
                 raise InputError(
-                    f"{path}: has schema {schema}, this version reads {WITHOUT_ADHESION} and "
-                    f"{SCHEMA}"
-                )
-            if holds and schema == WITHOUT_ADHESION:
-                raise InputError(
-                    f"{path}: has schema {schema}, which does not say by how much contacts hold; "
-                    "run its case again"
+                    f"{path}: has schema {schema}, this version reads {SCHEMA}; run its case again"
                 )
             for name in sorted(file["steps"]):
                 yield _step(file["steps"][name])
@@ -136,5 +119,4 @@ def _step(group: h5py.Group) -> dict[str, Any]:
 
 def _state(group: h5py.Group) -> dict[str, Any]:
     arrays: dict[str, NDArray[np.generic]] = {name: group[name][:] for name in group}
-    arrays.setdefault("contact_adhesion", np.zeros(len(arrays["contact_node"])))
     return {"time": float(group.attrs["time"]), **arrays}

@@ -42,6 +42,8 @@ def with_a_reaction(force):
             more = {
                 "contact_node": [0],
                 "contact_target": [-1],
+                "contact_site": [[0, 0, -1, -1, -1]],
+                "contact_facet": [[-1, -1, -1]],
                 "contact_gap": [0.01],
                 "contact_normal": [[0.0, 1.0]],
                 "contact_reaction": [[0.0, force]],

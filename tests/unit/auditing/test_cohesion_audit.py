@@ -159,24 +159,8 @@ def test_another_number_of_contacts_that_hold_is_found(run, tmp_path):
     assert "holding" in refuted_after(run, tmp_path, more)
 
 
-def test_files_that_do_not_say_what_holds_are_read_where_nothing_does(run, tmp_path):
-    def old(directory):
-        with h5py.File(directory / "audit.h5", "r+") as file:
-            file.attrs["schema"] = 4
-            for step in file["steps"].values():
-                for end in ("start", "end"):
-                    del step[end]["contact_adhesion"]
-
-    with pytest.raises(carom.InputError, match=r"audit\.h5: has schema 4, .* run its case again"):
-        refuted_after(run, tmp_path / "a", old)
-    loose = blocks().model_copy(update={"contact": carom.Contact(condition="gap")})
-    run_confirmed(loose.with_overrides(["contact.penetration_tolerance=0.5"]), tmp_path / "loose")
-    assert refuted_after(tmp_path / "loose", tmp_path / "b", old) == set()
-
-
 def test_what_holds_is_in_the_stored_steps(run):
     with h5py.File(run / "audit.h5") as file:
-        assert file.attrs["schema"] == 5
         adhesion = file["steps/000000/start/contact_adhesion"][:]
     # c times the area around every node of the finer side.
     assert np.sort(adhesion) == pytest.approx(3e3 * 0.7 / 4 * np.array([0.5, 0.5, 1, 1, 1]))

@@ -302,6 +302,8 @@ FALSE = {
     "gap": in_h5(f"{STEP}/end/contact_gap", little_more),
     "normal": in_h5(f"{STEP}/end/contact_normal", lambda n: 0.999 * n),
     "node": in_h5(f"{STEP}/end/contact_node", lambda n: n - 1),
+    "site": in_h5(f"{STEP}/end/contact_site", lambda n: n - 1),
+    "facet": in_h5(f"{STEP}/end/contact_facet", lambda n: n - 1),
     "stress": in_h5("fields.vtkhdf:VTKHDF/CellData/stress", little_more),
     "pressure": in_h5("surface.vtkhdf:VTKHDF/CellData/pressure", little_more),
     "area": in_h5("surface.vtkhdf:VTKHDF/CellData/area", little_more),

@@ -34,6 +34,12 @@ impl<const D: usize> Faceted<D> {
         Some(Self { surface, bounds: Aabb::of(corners.iter().copied()), corners, first })
     }
 
+    /// Which corner has this number, from 0 on; none if it is that of a node.
+    pub fn corner_index(&self, n: u32) -> Option<u32> {
+        let index = n.checked_sub(self.first)?;
+        ((index as usize) < self.corners.len()).then_some(index)
+    }
+
     /// Where a corner is before the obstacle has moved [m]; none if the number is that of a node.
     #[inline]
     pub fn corner(&self, n: u32) -> Option<&Vector<D>> {

@@ -124,7 +124,13 @@ impl<const D: usize> Obstacle<D> {
     /// Whether a corner of the obstacle has this number.
     #[must_use]
     pub fn has_corner(&self, n: u32) -> bool {
-        self.faceted.as_ref().is_some_and(|f| f.corner(n).is_some())
+        self.corner_index(n).is_some()
+    }
+
+    /// Which of its corners has this number, from 0 on; none if it is that of a node. Corner k of a box has the far end of axis i if bit i of k is set.
+    #[must_use]
+    pub fn corner_index(&self, n: u32) -> Option<u32> {
+        self.faceted.as_ref()?.corner_index(n)
     }
 
     /// Where nodes and the corners of this obstacle are, the nodes being at `position`.

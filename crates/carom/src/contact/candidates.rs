@@ -160,15 +160,14 @@ impl<const D: usize> Finder<D> {
         self.has_looked = false;
     }
 
-    /// The nodes that may be inside of surfaces where the last step ended, each with its pair, ascending: those that were found and were not among its contacts,
-    /// the `active`. Of all others it has seen that they are not. None if it has not looked, and of rows of mortar pairs, which are about means.
-    pub fn suspects(&self, pairs: &Pairs, active: &[Candidate]) -> Option<Vec<(u32, u32)>> {
+    /// The nodes that may be inside of surfaces where the last step ended, each with its pair, ascending: those that were found. Of all others it has seen that they
+    /// are not. Contacts are among them: a node in front of the facet that it faces may be behind the next one. None if it has not looked, and of rows of mortar
+    /// pairs, which are about means.
+    pub fn suspects(&self, pairs: &Pairs) -> Option<Vec<(u32, u32)>> {
         if !self.has_looked || pairs.have_mortar() {
             return None;
         }
-        let is_idle = |c: &&Candidate| active.binary_search_by_key(&c.key(), Candidate::key).is_err();
-        let of_node = |c: &Candidate| Some((c.pair, c.node()?));
-        Some(self.found.iter().filter(is_idle).filter_map(of_node).collect())
+        Some(self.found.iter().filter_map(|c| Some((c.pair, c.node()?))).collect())
     }
 
     /// Whether candidates that nobody had found would have kept out what the measure of the step has found inside. If so, they are searched

@@ -450,7 +450,7 @@ impl<const D: usize> Simulation<D> {
         let stage = &self.stages[self.current];
         let contacts = &self.work.contacts;
         let pairs = &stage.model.assembly.contact.pairs;
-        let suspects = contacts.finder.suspects(pairs, &contacts.active.candidates);
+        let suspects = contacts.finder.suspects(pairs);
         let min_gap = self.history.record(
             &stage.model,
             &self.state,

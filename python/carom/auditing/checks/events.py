@@ -22,7 +22,12 @@ TERMS = names("pair")
 """What a pair does to the energy; any of it shows that it pressed."""
 
 TURNED = 2e-3
-"""How much less of an impulse is along the normal of the step than along that of its end."""
+"""How much less of an impulse is along the normal of the step than along that of its end, where
+bodies do not turn.
+
+Where they turn, the angle that both turn by in a step comes to that: as much of its friction is
+along the normal of the step.
+"""
 
 PINNED = 5e-3
 """A figure is known if its bounds are no farther apart than this part of it."""
@@ -182,6 +187,10 @@ class EventChecks:
         """Check that the forces of rows are those of the pairs in whose events they are."""
         rows, total = self._rows, self._pressing.total
         alone = np.array([float(not claims) for claims in self._claims])
+        turned = 2.0 * rows.dt * rows.turning()
+        turned = self._jolts * (
+            TURNED + np.maximum(turned, np.concatenate([turned[:1], turned[:-1]]))
+        )
         # What pulls has none.
         pressed = np.maximum(total, 0.0) if self._coheres else total
         self._check("events: force", pressed * alone, 0.0, "force without an event")
@@ -191,7 +200,7 @@ class EventChecks:
             peaks = {e.pair: e.peak for e in self._events if self._holds(e, int(row))}
             low = sum(bound[0] for bound in bounds.values())
             high = sum(min(bound[1], peaks[name]) for name, bound in bounds.items())
-            off = (PRESSED + TURNED * self._jolts) * total[row]
+            off = (PRESSED + turned[row]) * total[row]
             if not self._coheres:
                 self._check("events: force", max(low - total[row], 0.0), off, where)
             self._check("events: force", max(total[row] - high, 0.0), off, where)

@@ -10,9 +10,10 @@ from carom.auditing.contact.holding import Holding
 from carom.auditing.model import AuditModel
 from carom.auditing.report import Findings
 from carom.auditing.steps.bearing import bearing_area
-from carom.auditing.steps.contacts import AT_MULTIPLIER, AT_NODE, Contacts
+from carom.auditing.steps.contacts import Contacts
 from carom.auditing.steps.ruled import Ruled
 from carom.auditing.steps.scales import ROUND_OFF, Scales
+from carom.auditing.steps.sites import AT_MULTIPLIER, AT_NODE
 from carom.auditing.steps.step import Step
 
 CLOSED = 1e-9
@@ -67,10 +68,10 @@ class HoldingChecks:
             least = most = holding.force
             if holding.stress > 0.0:
                 least = most = 0.0
-                if found.site[k] == AT_MULTIPLIER:
+                if found.sites.kind[k] == AT_MULTIPLIER:
                     depth = self._model.bodies[found.source[k]].thickness
                     least = most = holding.stress * float(areas_at_start[k]) * depth
-                elif found.site[k] == AT_NODE:
+                elif found.sites.kind[k] == AT_NODE:
                     between = int(found.source[k]), int(found.node[k])
                     areas = bearing_area(self._model, *between, normals[k], position, turn=turn)
                     least, most = (holding.stress * area for area in areas)

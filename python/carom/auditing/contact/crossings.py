@@ -72,7 +72,7 @@ def crossings(position: Array, source: Edges, target: Edges, towards: Array) -> 
     )
 
 
-def drawn_depths(points: Array, found: Crossings, shifts: tuple[int, int]) -> Array:
+def drawn_depths(points: Array, found: Crossings) -> Array:
     """Return how deep edges that cross were as drawn [m], shape [count]; zero if they did not.
 
     Parameters
@@ -81,16 +81,10 @@ def drawn_depths(points: Array, found: Crossings, shifts: tuple[int, int]) -> Ar
         Where nodes are drawn [m], shape [node_count, 3].
     found
         The edges, with normals out of the target.
-    shifts
-        What the numbers of the ends of either side are more than those of `points`.
     """
     depths = np.zeros(len(found.gap))
     for k in np.flatnonzero(np.isfinite(found.gap)):
         one = np.array([k])
-        both = (
-            found.source[one].numbered_from(-shifts[0]),
-            found.target[one].numbered_from(-shifts[1]),
-        )
-        gap = float(crossings(points, *both, found.normal[k]).gap[0])
-        depths[k] = max(-gap, 0.0) if np.isfinite(gap) else 0.0
+        gap = crossings(points, found.source[one], found.target[one], found.normal[k]).gap
+        depths[k] = max(-float(gap[0]), 0.0) if np.isfinite(gap[0]) else 0.0
     return depths

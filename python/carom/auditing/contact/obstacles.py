@@ -126,11 +126,18 @@ class Cornered:
 
     @classmethod
     def box(cls, corner: Array, size: Array) -> Cornered:
-        """Return a box with sides along the axes, in the plane a rectangle."""
-        if len(corner) == 2:
-            return cls.polygon(corner + size * np.array([[0, 0], [1, 0], [1, 1], [0, 1]]))
-        kind = KINDS["hex8"]
-        return cls(corner + 0.5 * size * (1.0 + kind.nodes), kind.facets)
+        """Return a box with sides along the axes, in the plane a rectangle.
+
+        Corner k has the far end of axis i if bit i of k is set.
+        """
+        dimension = len(corner)
+        kind = KINDS["quad4" if dimension == 2 else "hex8"]
+        far = (kind.nodes > 0.0).astype(np.int64)
+        number = far @ (1 << np.arange(dimension))
+        facets = number[np.array(kind.facets)]
+        corners = np.zeros(far.shape)
+        corners[number] = corner + size * far
+        return cls(corners, facets)
 
     @classmethod
     def polygon(cls, points: Array) -> Cornered:

@@ -11,7 +11,7 @@ from carom.auditing.bodies.body import AuditBody
 from carom.auditing.contact.crossings import Crossings, crossings
 from carom.auditing.contact.edges import Edges, edges
 from carom.auditing.contact.obstacles import Cornered, Round
-from carom.auditing.contact.rounding import nearest_places
+from carom.auditing.contact.rounding import faces_before, nearest_place
 from carom.auditing.mesh.facets import grouped
 from carom.auditing.targets.feet import Target
 
@@ -65,11 +65,7 @@ def corners_in(body: AuditBody, target: Target, corners: Array) -> float:
 
 def round_in(body: AuditBody, shape: Round) -> float:
     """Return how deep the deepest facet of a body, or edge, is in what is round as drawn [m]."""
-    gaps = [
-        place.gap
-        for node in body.sources.tolist()
-        for place in nearest_places(shape, body, node, body.points, None)
-    ]
+    gaps = [nearest_place(shape, nodes, body.points).gap for nodes in faces_before(shape, body)]
     return max(-min(gaps, default=0.0), 0.0)
 
 

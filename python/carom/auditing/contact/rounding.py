@@ -10,7 +10,7 @@ import numpy as np
 from carom.auditing.arrays import Array, Indices
 from carom.auditing.bodies.body import AuditBody
 from carom.auditing.contact.edges import edges
-from carom.auditing.contact.obstacles import Round, Shape
+from carom.auditing.contact.obstacles import Round
 from carom.auditing.targets.sheet import FlatPatches, Sheet
 
 
@@ -30,48 +30,38 @@ class NearestPlace:
     normal: Array
     stencil: list[tuple[int, float]]
 
-    @property
-    def nodes(self) -> Indices:
-        """Nodes of the facet or the edge that it is on."""
-        return np.array([node for node, _ in self.stencil])
 
-
-def nearest_places(
-    shape: Shape, body: AuditBody, node: int, position: Array, known: Indices | None
-) -> Iterator[NearestPlace]:
-    """Yield the places of facets, or edges before a cylinder, around a node.
+def nearest_place(shape: Round, nodes: Indices, position: Array) -> NearestPlace:
+    """Return the place of a facet, or an edge before a cylinder.
 
     Parameters
     ----------
     shape
         The obstacle where it is drawn.
-    body, node
-        A body and one of its nodes.
+    nodes
+        Those of the facet or the edge.
     position
-        Where its nodes are beside the obstacle as drawn [m], shape [node_count, 3].
-    known
-        If given, the nodes of the only facet or edge that counts.
+        Where the nodes of its body are beside the obstacle as drawn [m], shape [node_count, 3].
     """
-    if not isinstance(shape, Round) or shape.sign < 0:
-        return
-    if shape.has_axis:
-        around = edges(body).numbered_from(-body.span.start).at(node).ends
-        for a, b in around if known is None else known[None, :2]:
-            offsets = shape.offsets(position[[a, b]])
-            across = offsets[1] - offsets[0]
-            square = float(across @ across)
-            s = float(np.clip(-(across @ offsets[0]) / square, 0.0, 1.0)) if square > 0 else 0.0
-            place = position[a] + s * (position[b] - position[a])
-            yield _at(shape, place, [(int(a), 1.0 - s), (int(b), s)])
-        return
-    facets = body.facets[(body.facets == node).any(axis=1)]
-    if known is not None:
-        facets = body.facets[np.isin(body.facets, known).all(axis=1)]
-    for facet in facets:
-        sheet = Sheet(FlatPatches(facet[None]))
-        weights = sheet.closest_weights(shape.centre, position)
-        stencil = [(int(n), float(w)) for n, w in zip(facet, weights, strict=True)]
-        yield _at(shape, weights @ position[facet], stencil)
+    if len(nodes) == 2:
+        a, b = nodes.tolist()
+        offsets = shape.offsets(position[[a, b]])
+        across = offsets[1] - offsets[0]
+        square = float(across @ across)
+        s = float(np.clip(-(across @ offsets[0]) / square, 0.0, 1.0)) if square > 0 else 0.0
+        place = position[a] + s * (position[b] - position[a])
+        return _at(shape, place, [(a, 1.0 - s), (b, s)])
+    weights = Sheet(FlatPatches(nodes[None])).closest_weights(shape.centre, position)
+    stencil = [(int(n), float(w)) for n, w in zip(nodes, weights, strict=True)]
+    return _at(shape, weights @ position[nodes], stencil)
+
+
+def faces_before(shape: Round, body: AuditBody) -> Iterator[Indices]:
+    """Yield the facets of a body, or edges before a cylinder, by their nodes; none in a hole."""
+    if shape.sign > 0:
+        yield from (
+            edges(body).numbered_from(-body.span.start).ends if shape.has_axis else body.facets
+        )
 
 
 def _at(shape: Round, place: Array, stencil: list[tuple[int, float]]) -> NearestPlace:

@@ -13,7 +13,6 @@ import numpy as np
 
 from carom.auditing.arrays import Array, Indices
 from carom.auditing.model import AuditModel
-from carom.case.cohesion import holds
 from carom.case.scenario import Scenario
 from carom.errors import InputError
 from carom.io import layout
@@ -220,10 +219,7 @@ class Files:
     def steps(self) -> Iterator[dict[str, Any]]:
         """Yield the stored steps, of which there are none without ``output.audit``."""
         if self.has_steps:
-            stages = self.scenario.full_stages()
-            given = [stage.contact.cohesion for stage in stages]
-            given += [pair.cohesion for stage in stages for pair in stage.contact.pairs]
-            yield from read_steps(self.path / layout.AUDIT, holds=any(map(holds, given)))
+            yield from read_steps(self.path / layout.AUDIT)
 
 
 def _stored(

@@ -85,6 +85,15 @@ class Rows:
         """Return the places of the centre of a body [m], shape [row_count, D]."""
         return self._vectors(*(f"{name}.{axis}" for axis in self._axes))
 
+    def turning(self) -> Array:
+        """Return how fast the body turns that turns fastest [rad/s], shape [row_count]."""
+        spins = [
+            self._vectors(*turning_components(f"{body.name}.spin", len(self._axes)))
+            for body in self.model.bodies
+        ]
+        fastest: Array = np.max([np.linalg.norm(spin, axis=1) for spin in spins], axis=0)
+        return fastest
+
     @property
     def momentum(self) -> Array:
         """Momentum [kg m/s], shape [row_count, D]."""

@@ -14,17 +14,10 @@ from carom.auditing.contact.holding import OF_BONDS
 from carom.auditing.contact.pairs import Side
 from carom.auditing.model import AuditModel
 from carom.auditing.steps.ellipse import Ellipse
+from carom.auditing.steps.sites import Sites
 
 BEARS = 0.5
 """Facets bear a contact at their node that face it at least this well, relative to the best."""
-
-AT_NODE, AT_EDGES, BEFORE_ROUND, AT_CORNER, AT_MULTIPLIER, BETWEEN_NODES = range(6)
-"""Where contacts are: at a node, where edges cross, on a facet or edge before what is round, on a
-facet at a corner of an obstacle, in the mean under the multiplier of a node, or at a point of an
-edge between its nodes."""
-
-ALONG = 1e-6
-"""Points of an edge whose weights differ by less are one."""
 
 
 @dataclass(frozen=True)
@@ -35,8 +28,8 @@ class Contacts:
     ----------
     node
         Source nodes, of edges and facets the one that takes most, shape [count].
-    site
-        Where they are, shape [count].
+    sites
+        Where they are.
     source, target
         Body of the node; index of a body, or −1 − that of an obstacle; shape [count].
     reaction
@@ -70,7 +63,7 @@ class Contacts:
     """
 
     node: Indices
-    site: Indices
+    sites: Sites
     source: Indices
     target: Indices
     reaction: Array
@@ -121,7 +114,7 @@ class Contacts:
     def placed(self, chosen: Mask, others: Contacts) -> Contacts:
         """Return the same contacts where they are if chosen, and else where `others` are."""
         geometry = (
-            *("site", "gap", "normal", "sources", "shares", "followed", "weights", "facet", "area"),
+            *("gap", "normal", "sources", "shares", "followed", "weights", "facet", "area"),
             *("gap_error", "normal_error", "grain"),
         )
         found: dict[str, Any] = {}
@@ -217,22 +210,9 @@ class Contacts:
 
     @property
     def keys(self) -> list[tuple[int, ...]]:
-        """What tells each contact from the others: its nodes, and what they are against."""
-        keys: list[tuple[int, ...]] = []
-        for k, site in enumerate(self.site):
-            # Rows are as long as the longest: without a share a node is none of it.
-            nodes = sorted(self.sources[k, self.shares[k] != 0.0].tolist())
-            if site in (AT_EDGES, BETWEEN_NODES):
-                nodes = sorted(self.sources[k, :2].tolist())
-            if site == AT_NODE:
-                nodes = [int(self.node[k])]
-            elif site == AT_MULTIPLIER:
-                nodes = [int(self.node[k]), int(self.facet[k])]
-            elif site == BETWEEN_NODES:
-                nodes.append(round(self.shares[k, 0] / ALONG))
-            others = sorted(set(self.followed[k, :2].tolist())) if site == AT_EDGES else []
-            keys.append((int(self.target[k]), int(site), *nodes, *others))
-        return keys
+        """What tells each contact from the others: what it is against, and where."""
+        each = enumerate(self.target.tolist())
+        return [(target, *self.sites.key(k)) for k, target in each]
 
     def borne(self, k: int) -> list[tuple[int, float]]:
         """Return the nodes of the source of a contact, with what each has of what presses on it."""

@@ -4,17 +4,14 @@ from __future__ import annotations
 
 import numpy as np
 
-from carom.auditing.arrays import Array
+from carom.auditing.arrays import Array, Indices
 from carom.auditing.bodies.body import AuditBody
 from carom.auditing.contact.crossings import crossings, drawn_depths
-from carom.auditing.contact.edges import Edges, edges
+from carom.auditing.contact.edges import Edges
 from carom.auditing.contact.obstacles import Cornered
-from carom.auditing.steps.contacts import AT_CORNER, AT_EDGES
 from carom.auditing.steps.place import Place
-from carom.auditing.targets.feet import BEYOND, Target
-
-ON_END = 1e-9
-"""Feet this close to the end of what a facet reaches, in facets, are there."""
+from carom.auditing.steps.sites import AT_CORNER, AT_EDGES
+from carom.auditing.targets.feet import Target
 
 
 def on_obstacle(shape: Cornered, shift: Array, node: int, position: Array) -> list[Place]:
@@ -28,28 +25,32 @@ def on_obstacle(shape: Cornered, shift: Array, node: int, position: Array) -> li
             gap=float(feet.gap[foot]),
             normal=feet.normal[foot],
             facet=int(feet.facet[foot]),
-            clamped=bool(feet.beyond[foot] >= BEYOND - ON_END),
             sources=[(node, 1.0)],
         )
         for foot in range(len(feet.gap))
     ]
 
 
-def at_corners(
-    shape: Cornered, shift: Array, body: AuditBody, target: Target, position: Array
+def at_corner(
+    shape: Cornered, shift: Array, corner: int, body: tuple[AuditBody, Target], position: Array
 ) -> list[Place]:
-    """Return where the corners of an obstacle are on the boundary of a body, its `target`."""
-    feet = target.feet(shape.corners + shift, position[body.span])
-    depths = np.maximum(-target.signed_distance(shape.corners, body.points), 0.0)
+    """Return where a corner of an obstacle is on the boundary of a body, its target."""
+    if corner >= len(shape.corners):
+        return []
+    own, target = body
+    at = shape.corners[[corner]]
+    feet = target.feet(at + shift, position[own.span])
+    drawn = target.signed_distance(at, own.points)
+    depth = max(-float(drawn[0]), 0.0)
     return [
         Place(
             gap=float(feet.gap[foot]),
             normal=-feet.normal[foot],
             site=AT_CORNER,
             facet=int(feet.facet[foot]),
-            depth=float(depths[feet.point[foot]]),
+            depth=depth,
             sources=[
-                (int(node) + body.span.start, float(weight))
+                (int(node) + own.span.start, float(weight))
                 for node, weight in zip(feet.nodes[foot], feet.weights[foot], strict=True)
             ],
         )
@@ -58,19 +59,30 @@ def at_corners(
 
 
 def at_edges(
-    shape: Cornered, shift: Array, source: tuple[AuditBody, int], position: Array, towards: Array
+    shape: Cornered,
+    shift: Array,
+    both: tuple[Edges, Indices],
+    position: tuple[Array, Array],
+    towards: Array,
 ) -> list[Place]:
-    """Return where edges around a node of a body cross those of an obstacle in space.
+    """Return where an edge crosses that of an obstacle that has moved by a shift [m].
 
-    Normals point along `towards` as nearly as they can.
+    Parameters
+    ----------
+    shape, shift
+        The obstacle, and how far it has moved.
+    both
+        The edge of the source, and the corners at the ends of the other.
+    position
+        Where nodes are drawn and where they are [m], of shape [node_count, 3].
+    towards
+        What normals are to point along as nearly as they can.
     """
-    body, node = source
-    mine = edges(body).at(node)
-    theirs = Edges.straight(shape.edges).numbered_from(len(position))
-    places = np.concatenate([position, shape.corners + shift])
-    found = crossings(places, mine, theirs, towards)
-    drawn = np.concatenate([body.points, shape.corners])
-    depths = drawn_depths(drawn, found, (body.span.start, len(position) - len(body.points)))
+    mine, ends = both
+    drawn, now = position
+    theirs = Edges.straight(shape.edges).between(ends).numbered_from(len(now))
+    found = crossings(np.concatenate([now, shape.corners + shift]), mine, theirs, towards)
+    depths = drawn_depths(np.concatenate([drawn, shape.corners]), found)
     return [
         Place(
             gap=float(found.gap[k]),

@@ -2,39 +2,45 @@
 
 from __future__ import annotations
 
+from collections import defaultdict
 from collections.abc import Mapping
 from dataclasses import replace
-from functools import partial
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from carom.auditing.arrays import Array, Indices
 from carom.auditing.contact.crossings import crossings, drawn_depths
 from carom.auditing.contact.edges import edges
-from carom.auditing.contact.obstacles import Cornered
-from carom.auditing.contact.rounding import nearest_places
+from carom.auditing.contact.obstacles import Cornered, Round
+from carom.auditing.contact.rounding import nearest_place
 from carom.auditing.model import AuditModel
-from carom.auditing.steps.between import Fit, between_nodes
+from carom.auditing.steps.between import between_nodes
 from carom.auditing.steps.bonds import carried
-from carom.auditing.steps.choosing import goes_on, settle
-from carom.auditing.steps.contacts import (
-    AT_EDGES,
-    AT_MULTIPLIER,
-    BEFORE_ROUND,
-    BETWEEN_NODES,
-    Contacts,
-)
-from carom.auditing.steps.cornered import ON_END, at_corners, at_edges, on_obstacle
+from carom.auditing.steps.contacts import Contacts
+from carom.auditing.steps.cornered import at_corner, at_edges, on_obstacle
+from carom.auditing.steps.following import goes_on
 from carom.auditing.steps.multipliers import at_multipliers
 from carom.auditing.steps.place import Place
-from carom.auditing.targets.feet import BEYOND, Feet
+from carom.auditing.steps.sites import (
+    AT_CORNER,
+    AT_EDGES,
+    AT_MULTIPLIER,
+    AT_NODE,
+    BEFORE_ROUND,
+    BETWEEN_NODES,
+    Sites,
+)
+from carom.auditing.targets.feet import Feet
 
 SAME = 1e-7
 """Feet whose gap [model size] and normal differ by no more are equally good: at edges of facets."""
 
-NOT_AT_NODE = 1e-5
-"""Contacts whose node has no foot as near to what is stored as this are not at a node."""
+NO_FACET = -1
+"""The facet of a foot on what has none."""
+
+ON_FACETS = (AT_NODE, AT_CORNER, BETWEEN_NODES)
+"""What is on a facet: where that is flat, on the stored one."""
 
 
 def find(
@@ -50,8 +56,9 @@ def find(
 
     The `step` has start and end [s].
 
-    Feet are those that come closest to the stored gaps and normals. What is stored is not of all
-    times of a step: feet at others are near those of the contacts `like` them.
+    What is stored says which node, edges or corner they are at. Feet are those that come closest to
+    the stored gaps and normals, on the stored facet where others are as good. Gaps and normals are
+    not of all times of a step: feet at others are near those of the contacts `like` them.
     """
     found = _Finder(model, state, (position, time), step, like).found()
     bonds = found.bonds
@@ -76,6 +83,7 @@ class _Finder:
         position, time = at
         self._model, self._position, self._time, self._like = model, position, time, like
         self._state = state
+        self._sites = Sites.of(state)
         stored = state["contact_node"]
         self._node = np.clip(stored, 0, len(model.points) - 1)
         self._source = np.array([model.body_of(int(n)) for n in stored], dtype=np.int64)
@@ -98,11 +106,9 @@ class _Finder:
 
         self._multipliers: dict[tuple[int, int], list[Place]] = {}
         """The multipliers of mortar pairs, by source and target."""
-        self._alike: dict[int, list[Place]] = {}
-        """Feet of a contact that are as good as one another."""
 
-    def _pushed_apart(self, contact: int, depth: Array | float | None) -> Array:
-        """Return the interference at both ends of the step [m] of a contact as deep, [2, ...].
+    def _pushed_apart(self, contact: int, depth: float | None) -> Array:
+        """Return the interference at both ends of the step [m] of a contact as deep, shape [2].
 
         Where no depth is given it is that of its node.
         """
@@ -117,32 +123,44 @@ class _Finder:
         h = side.interference
         return np.array([h.as_state(self._step[0], depth), h.at(self._step[1], depth)])
 
+    def _stand_off(self, contact: int, depth: float | None) -> float:
+        """Return the same at the time that contacts are looked at [m]."""
+        start, end = self._pushed_apart(contact, depth)
+        return float((1.0 - self._part) * start + self._part * end)
+
     def found(self) -> Contacts:
         """Return the contacts."""
-        mortar = np.array([side is not None and side.mortar for side in self._sides], dtype=bool)
-        for t in np.unique(self._target):
-            at = np.flatnonzero(self._target == t)
-            round_ones = np.array([self._is_round(int(k)) for k in at], dtype=bool)
-            for contact in at[round_ones]:
-                self._of_ball(int(contact))
-            at = at[~round_ones]
-            if t >= 0 and t < len(self._model.bodies):
-                for contact in at[mortar[at]]:
-                    self._under_multipliers(int(t), int(contact))
-                if not mortar[at].all():
-                    self._before_body(int(t), at[~mortar[at]])
-            elif t < 0 and -1 - t < len(self._model.obstacles):
-                self._before_obstacle(int(-1 - t), at)
-        if self._like is None:
-            settle(self._state, self._places, self._alike, self._other_places)
+        bodies, obstacles = len(self._model.bodies), len(self._model.obstacles)
+        known = (self._source < bodies) & (-obstacles <= self._target) & (self._target < bodies)
+        at_nodes: dict[int, list[int]] = defaultdict(list)
+        for contact in np.flatnonzero(known).tolist():
+            target = int(self._target[contact])
+            if self._is_round(contact):
+                self._of_ball(contact)
+            elif not self._may_be(contact):
+                continue
+            elif target < 0:
+                self._before_obstacle(-1 - target, contact)
+            elif self._sites.kind[contact] == AT_NODE:
+                at_nodes[target].append(contact)
+            else:
+                self._before_body(target, contact)
+        for target, own in at_nodes.items():
+            self._at_nodes(target, np.array(own))
         return self._gathered()
 
     def _is_round(self, contact: int) -> bool:
         """Return whether a contact is of a round body with what has no corners."""
-        source, target = int(self._source[contact]), int(self._target[contact])
-        bodies, obstacles = self._model.bodies, self._model.obstacles
-        known = source < len(bodies) and -len(obstacles) <= target < len(bodies)
-        return known and self._model.is_round(source, target)
+        return self._model.is_round(int(self._source[contact]), int(self._target[contact]))
+
+    def _may_be(self, contact: int) -> bool:
+        """Return whether a contact of its pair can be what is stored."""
+        kind, side = int(self._sites.kind[contact]), self._sides[contact]
+        if kind in (AT_NODE, AT_MULTIPLIER, BETWEEN_NODES) and self._target[contact] >= 0:
+            mortar = side is not None and side.mortar
+            if mortar != (kind == AT_MULTIPLIER):
+                return False
+        return self._sites.says(contact)
 
     def _of_ball(self, contact: int) -> None:
         """Place a contact of a round body where it touches."""
@@ -164,71 +182,121 @@ class _Finder:
         found = ball.touching(normal, self._position[span], pressed)
         return [(node + span.start, weight) for node, weight in found]
 
-    def _misfit(
-        self, contact: int, gap: Array, normal: Array, depth: Array | float | None = None
-    ) -> Array:
+    def _misfit(self, contact: int, gap: Array, normal: Array, depth: float | None = None) -> Array:
         """Return how far gaps and normals are from what is stored, in sizes of the model.
 
         Gaps are stored as the law sees them.
         """
         apart = np.linalg.norm(self._normal[contact] - normal, axis=-1)
-        start, end = self._pushed_apart(contact, depth)
-        pushed = (1.0 - self._part) * start + self._part * end
-        stored = self._state["contact_gap"][contact] + pushed
+        stored = self._state["contact_gap"][contact] + self._stand_off(contact, depth)
         misfit: Array = np.abs(gap - stored) / self._model.size + apart
         return misfit
 
-    def _before_obstacle(self, number: int, at: Indices) -> None:
+    def _before_obstacle(self, number: int, contact: int) -> None:
+        obstacle, kind = self._model.obstacles[number], self._sites.kind[contact]
+        shape, shift = obstacle.shape, obstacle.travel.displacement(self._time)
+        node = int(self._sites.numbers[contact, 0])
+        places: list[Place] = []
+        if kind == AT_NODE and node == self._node[contact]:
+            places = self._on_obstacle(number, node)
+        elif kind == BEFORE_ROUND and isinstance(shape, Round):
+            places = self._before_round(shape, shift, contact)
+        elif kind == AT_CORNER and isinstance(shape, Cornered):
+            source = int(self._source[contact])
+            body, target = self._model.bodies[source], self._model.targets[source]
+            places = at_corner(shape, shift, node, (body, target), self._position)
+        elif kind == AT_EDGES and isinstance(shape, Cornered) and self._model.dimension == 3:
+            mine = edges(self._model.bodies[int(self._source[contact])])
+            both = mine.between(self._sites.edge(contact)), self._sites.crossed(contact)
+            drawn = (self._model.points, self._position)
+            places = at_edges(shape, shift, both, drawn, self._normal[contact])
+        self._choose(contact, places)
+
+    def _on_obstacle(self, number: int, node: int) -> list[Place]:
         obstacle = self._model.obstacles[number]
         if isinstance(obstacle.shape, Cornered):
-            self._before_cornered(number, obstacle.shape, at)
-            return
-        gaps, normals = obstacle.nearest(self._position[self._node[at]], self._time)
-        for k, contact in enumerate(at):
-            misfit = float(self._misfit(contact, gaps[k], normals[k]))
-            own = self._places[contact].sources
-            self._places[contact] = Place(float(gaps[k]), normals[k], misfit, sources=own)
-            if self._may_be(BEFORE_ROUND, contact):
-                self._before_round(number, int(contact))
+            shift = obstacle.travel.displacement(self._time)
+            return on_obstacle(obstacle.shape, shift, node, self._position)
+        gaps, normals = obstacle.nearest(self._position[[node]], self._time)
+        return [Place(float(gaps[0]), normals[0], sources=[(node, 1.0)])]
 
-    def _before_cornered(self, number: int, shape: Cornered, at: Indices) -> None:
-        """Look for feet of nodes on an obstacle with corners, of its corners on bodies, and edges.
-
-        Facets of the obstacle are to a body what those of another are.
-        """
-        shift = self._model.obstacles[number].travel.displacement(self._time)
-        for contact in map(int, at):
-            node = int(self._node[contact])
-            places = self._fitted(contact, on_obstacle(shape, shift, node, self._position))
-            fits = any(place.misfit <= NOT_AT_NODE and not place.clamped for place in places)
-            if self._like is not None or not fits:
-                places += self._at_its_corners(number, contact)
-            if self._like is not None and places:
-                places = [self._nearest_to_known(places, contact)]
-            if not places:
-                continue
-            least = min(place.misfit for place in places)
-            alike = [place for place in places if place.misfit <= least + SAME]
-            alike.sort(key=lambda place: place.clamped)
-            self._places[contact] = alike[0]
-            if len(alike) > 1:
-                self._alike[contact] = alike
-
-    def _at_its_corners(self, number: int, contact: int) -> list[Place]:
-        """Return where corners and edges of an obstacle are on facets and edges of the source."""
-        obstacle, source = self._model.obstacles[number], int(self._source[contact])
-        if source >= len(self._model.bodies) or not isinstance(obstacle.shape, Cornered):
+    def _before_round(self, shape: Round, shift: Array, contact: int) -> list[Place]:
+        """Return the place of the facet or edge that is before something round."""
+        body = self._model.bodies[int(self._source[contact])]
+        nodes = self._sites.edge(contact)
+        if nodes[0] < 0:
+            nodes = self._sites.facets[contact]
+        nodes = nodes[nodes >= 0] - body.span.start
+        if not len(nodes) or not np.isin(nodes, body.surface).all():
             return []
-        shape, shift = obstacle.shape, obstacle.travel.displacement(self._time)
-        body, target = self._model.bodies[source], self._model.targets[source]
-        places = at_corners(shape, shift, body, target, self._position)
-        if self._model.dimension == 3:
-            node, towards = int(self._node[contact]), self._normal[contact]
-            places += at_edges(shape, shift, (body, node), self._position, towards)
+        place = nearest_place(shape, nodes, self._position[body.span] - shift)
+        drawn = nearest_place(shape, nodes, body.points)
+        sources = [(node + body.span.start, weight) for node, weight in place.stencil]
+        depth = max(-drawn.gap, 0.0)
+        return [
+            Place(place.gap, place.normal, site=BEFORE_ROUND, sources=sources, depth=depth),
+        ]
+
+    def _before_body(self, number: int, contact: int) -> None:
+        """Place a contact with a body that is not at a node."""
+        kind, places = self._sites.kind[contact], []
+        if kind == AT_MULTIPLIER:
+            places = self._under_multipliers(number, contact)
+        elif kind == AT_EDGES and self._model.dimension == 3:
+            places = self._at_edges(number, contact)
+        elif kind == BETWEEN_NODES and self._model.dimension == 3:
+            mine = edges(self._model.bodies[int(self._source[contact])])
+            mine = mine.between(self._sites.edge(contact))
+            if len(mine):
+                stencil = self._sites.point(contact, mine)
+                places = between_nodes(self._model, stencil, number, self._position)
+        self._choose(contact, places)
+
+    def _under_multipliers(self, number: int, contact: int) -> list[Place]:
+        """Return the multipliers at a node, on all its sides."""
+        source = int(self._source[contact])
+        if (source, number) not in self._multipliers:
+            places = at_multipliers(self._model, source, number, self._position)
+            self._multipliers[source, number] = places
+        node = int(self._sites.numbers[contact, 0])
+        own = [place for place in self._multipliers[source, number] if place.node == node]
+        if self._like is not None:
+            fan = int(self._like.facet[contact])
+            own = [place for place in own if place.facet == fan]
+        return own if node == self._node[contact] else []
+
+    def _choose(self, contact: int, places: list[Place]) -> None:
+        """Place a contact where it fits what is stored best, or goes on from what is known."""
+        found = self._fitted(contact, places)
         if self._like is None:
             # What is stored of a contact names the node that takes most of it.
-            places = [place for place in places if place.named_by(int(self._node[contact]))]
-        return self._fitted(contact, places)
+            node = int(self._node[contact])
+            found = [p for p in found if p.site == AT_MULTIPLIER or p.named_by(node)]
+            stored = self._stored_facets(contact)
+            on = [place for place in found if place.facet in stored.facets]
+            if self._sites.kind[contact] in ON_FACETS and not stored.smooth:
+                found = on
+            least = min((place.misfit for place in found), default=np.inf) + SAME
+        else:
+            on = [place for place in found if place.facet == int(self._like.facet[contact])]
+            least = np.inf
+        best = [place for place in on or found if place.misfit <= least]
+        if best or found:
+            self._places[contact] = min(best or found, key=lambda place: place.misfit)
+
+    def _stored_facets(self, contact: int) -> _Stored:
+        """Return the facets that are stored of a contact."""
+        of = int(self._target[contact])
+        if self._sites.kind[contact] == AT_CORNER:
+            of = int(self._source[contact])
+        if of >= 0:
+            first, target = self._model.bodies[of].span.start, self._model.targets[of]
+            facets = self._sites.on(contact, target.facets, first)
+            return _Stored(facets, smooth=bool(target.smooth[facets].any()))
+        shape = self._model.obstacles[-1 - of].shape
+        if not isinstance(shape, Cornered):
+            return _Stored(np.array([NO_FACET]), smooth=False)
+        return _Stored(self._sites.on(contact, shape.facets, 0), smooth=False)
 
     def _fitted(self, contact: int, places: list[Place]) -> list[Place]:
         """Return places with how far they are from what is stored of a contact."""
@@ -240,197 +308,68 @@ class _Finder:
             for place in places
         ]
 
-    def _nearest_to_known(self, places: list[Place], contact: int) -> Place:
-        """Return which of the places goes on from the contact that it is like."""
-        assert self._like is not None, "something is known"
-        site, facet = int(self._like.site[contact]), int(self._like.facet[contact])
-        own = [p for p in places if p.site == site and p.facet == facet] or places
-        known = (self._like.sources[contact], self._like.shares[contact])
-        # Of edges and corners on the same facet the one whose nodes are most alike.
-        apart = [(round(place.apart(*known), 6), place.misfit) for place in own]
-        return own[apart.index(min(apart))]
-
-    def _may_be(self, site: int, contact: int) -> bool:
-        """Return whether a contact may be something else than at its node."""
-        if self._like is not None:
-            return int(self._like.site[contact]) == site
-        place = self._places[contact]
-        # Along a straight edge on what is nearly flat, gaps and normals change little.
-        least = SAME if site == BETWEEN_NODES else NOT_AT_NODE
-        return place.clamped or not place.misfit <= least
-
-    def _before_round(self, number: int, contact: int) -> None:
-        """Look for the facet or edge around the node that is before something round."""
-        source = self._source[contact]
-        if source >= len(self._model.bodies) or self._model.dimension == 2:
-            return
-        body = self._model.bodies[source]
-        own = int(self._node[contact]) - body.span.start
-        shift = self._model.obstacles[number].travel.displacement(self._time)
-        known = None if self._like is None else self._like.sources[contact] - body.span.start
-        shape = self._model.obstacles[number].shape
-        for place in nearest_places(shape, body, own, self._position[body.span] - shift, known):
-            depth = None
-            if self._resolves[contact]:
-                drawn = nearest_places(shape, body, own, body.points, place.nodes)
-                depth = max(-min(one.gap for one in drawn), 0.0)
-            misfit = float(self._misfit(contact, np.array(place.gap), place.normal, depth))
-            if misfit < self._places[contact].misfit or known is not None:
-                nodes = [(int(n) + body.span.start, w) for n, w in place.stencil]
-                self._places[contact] = Place(
-                    place.gap, place.normal, misfit, BEFORE_ROUND, sources=nodes, depth=depth
-                )
-
-    def _under_multipliers(self, number: int, contact: int) -> None:
-        """Place a contact of a mortar pair under a multiplier, or where edges cross."""
-        source = int(self._source[contact])
-        if (source, number) not in self._multipliers:
-            places = at_multipliers(self._model, source, number, self._position)
-            self._multipliers[source, number] = places
-        own = [p for p in self._multipliers[source, number] if p.node == self._node[contact]]
-        if self._like is not None:
-            fan = int(self._like.facet[contact])
-            own = [place for place in own if place.facet == fan]
-        places = self._fitted(contact, own)
-        if places and (self._like is None or self._like.site[contact] == AT_MULTIPLIER):
-            self._places[contact] = min(places, key=lambda place: place.misfit)
-        if self._model.dimension == 3 and self._may_be(AT_EDGES, contact):
-            crossed = self._at_edges(number, contact)
-            if crossed:
-                self._places[contact], self._alike[contact] = crossed[0], crossed
-
-    def _before_body(self, number: int, at: Indices) -> None:
+    def _at_nodes(self, number: int, at: Indices) -> None:
+        """Place contacts of nodes with a body."""
         model, target = self._model, self._model.targets[number]
         span = model.bodies[number].span
+        at = at[self._sites.numbers[at, 0] == self._node[at]]
+        if not len(at):
+            return
         feet = target.feet(self._position[self._node[at]], self._position[span])
-        for k, contact in enumerate(at):
+        for k, contact in enumerate(at.tolist()):
             mine = np.flatnonzero(feet.point == k)
             if int(self._source[contact]) == number:
                 own = int(self._node[contact]) - span.start
                 mine = mine[~np.isin(feet.facet[mine], _around(target.facets, own))]
             if len(mine):
-                self._at_node(feet, mine, int(contact), number)
-            if model.dimension == 3 and self._may_be(AT_EDGES, contact):
-                crossed = self._at_edges(number, int(contact))
-                if crossed:
-                    self._places[contact], self._alike[int(contact)] = crossed[0], crossed
-            if model.dimension == 3 and self._may_be(BETWEEN_NODES, contact):
-                self._between_nodes(number, int(contact))
+                self._at_node(feet, mine, contact, number)
 
     def _at_node(self, feet: Feet, mine: Indices, contact: int, number: int) -> None:
+        target, stored = self._model.targets[number], self._stored_facets(contact)
+        if self._like is None and not stored.smooth:
+            mine = mine[np.isin(feet.facet[mine], stored.facets)]
+            if not len(mine):
+                return
         misfit = self._misfit(contact, feet.gap[mine], feet.normal[mine])
-        alike_ones = misfit <= misfit.min() + SAME
-        good = mine[alike_ones]
-        # At a node that two facets share, the one whose normal it is.
-        good = good[np.lexsort((misfit[alike_ones], feet.beyond[good]))]
+        alike = misfit <= misfit.min() + SAME
+        good = mine[alike]
+        # Where smooth facets meet, the stored one, or else the one whose normal it is.
+        others = ~np.isin(feet.facet[good], stored.facets)
+        foot = int(good[np.lexsort((misfit[alike], feet.beyond[good], others))[0]])
         if self._like is not None:
             near = (int(self._like.facet[contact]), self._like.normal[contact])
-            target = self._model.targets[number]
-            good = np.array([goes_on(feet, mine, near, target, otherwise=int(good[0]))])
+            foot = goes_on(feet, mine, near, target, otherwise=foot)
         first = self._model.bodies[number].span.start
-        alike = [
-            Place(
-                gap=float(feet.gap[foot]),
-                normal=feet.normal[foot],
-                misfit=float(misfit.min()),
-                facet=int(feet.facet[foot]),
-                clamped=bool(feet.beyond[foot] >= BEYOND - ON_END),
-                sources=self._places[contact].sources,
-                followed=[
-                    (int(node) + first, float(weight))
-                    for node, weight in zip(feet.nodes[foot], feet.weights[foot], strict=True)
-                ],
-            )
-            for foot in good
-        ]
-        self._places[contact] = alike[0]
-        if len(alike) > 1:
-            self._alike[contact] = alike
-
-    def _between_nodes(self, number: int, contact: int) -> None:
-        """Look for the point of an edge around the node that is before a facet of the target."""
-        places = self._points_between(number, contact)
-        best = min(places, key=lambda place: place.misfit, default=self._places[contact])
-        if self._like is not None or best.misfit < self._places[contact].misfit:
-            self._places[contact] = best
-            self._alike.pop(contact, None)
-
-    def _points_between(self, number: int, contact: int, most: float | None = None) -> list[Place]:
-        """Return the places of the points of edges around the node that fit best, or so well."""
-        model, source = self._model, int(self._source[contact])
-        if source >= len(model.bodies) or source == number or model.dimension == 2:
-            return []
-        own, known = (source, int(self._node[contact])), self._known(contact)
-        fit = Fit(partial(self._misfit, contact), most, bool(self._resolves[contact]))
-        return between_nodes(model, own, number, self._position, known, fit=fit)
-
-    def _known(self, contact: int) -> tuple[Indices, Array, int] | None:
-        """Return nodes and weights of the source of the contact that one is like, and its facet."""
-        like = self._like
-        if like is None:
-            return None
-        return like.sources[contact], like.shares[contact], int(like.facet[contact])
-
-    def _other_places(self, contact: int) -> list[Place]:
-        """Return where edges cross, or corners are, that fit a contact as well as its node does."""
-        target = int(self._target[contact])
-        if self._is_round(contact):
-            return []
-        if target >= 0:
-            most = self._places[contact].misfit + SAME
-            points = self._points_between(target, contact, most)
-            crossed = self._at_edges(target, contact) if self._model.dimension == 3 else []
-            return [*crossed, *points]
-        number = -1 - target
-        if number >= len(self._model.obstacles):
-            return []
-        found = self._at_its_corners(number, contact)
-        most = self._places[contact].misfit + SAME
-        return [place for place in found if place.misfit <= most]
+        self._places[contact] = Place(
+            gap=float(feet.gap[foot]),
+            normal=feet.normal[foot],
+            misfit=float(misfit.min()),
+            facet=int(feet.facet[foot]),
+            sources=self._places[contact].sources,
+            followed=[
+                (int(node) + first, float(weight))
+                for node, weight in zip(feet.nodes[foot], feet.weights[foot], strict=True)
+            ],
+        )
 
     def _at_edges(self, number: int, contact: int) -> list[Place]:
-        """Return where edges around the node cross edges of the target, all that fit best."""
-        model, source = self._model, self._source[contact]
-        if source >= len(model.bodies) or number >= len(model.bodies):
-            return []
-        mine, theirs = edges(model.bodies[source]), edges(model.bodies[number])
-        if self._like is None:
-            mine = mine.at(int(self._node[contact]))
-        else:
-            mine = mine.between(self._like.sources[contact, :2])
-            theirs = theirs.between(self._like.followed[contact, :2])
+        """Return where the edge of the source crosses that of the target."""
+        model = self._model
+        mine = edges(model.bodies[int(self._source[contact])]).between(self._sites.edge(contact))
+        theirs = edges(model.bodies[number]).between(self._sites.crossed(contact))
         found = crossings(self._position, mine, theirs, self._normal[contact])
-        if source == number:
-            # Edges with a node in common meet there.
-            ends = (found.source.ends[:, :, None] == found.target.ends[:, None]).any(axis=(1, 2))
-            found = replace(found, gap=np.where(ends, np.inf, found.gap))
-        depths: list[float | None] = [None] * len(found.gap)
-        misfit = self._misfit(contact, found.gap, found.normal)
-        if self._resolves[contact]:
-            depths = drawn_depths(model.points, found, (0, 0)).tolist()
-            each = zip(found.gap, found.normal, depths, strict=True)
-            misfit = np.array([float(self._misfit(contact, *one)) for one in each])
-        if not len(misfit) or not misfit.min() < np.inf:
-            return []
-        if self._like is None and not misfit.min() < self._places[contact].misfit + SAME:
-            return []
-        # Edges that go on in one line cross at the same place.
-        good = np.flatnonzero(misfit <= misfit.min() + SAME)
-        good = good[np.argsort(found.beyond[good], kind="stable")]
-        places = [
+        depths = drawn_depths(model.points, found)
+        return [
             Place(
                 gap=float(found.gap[k]),
                 normal=found.normal[k],
-                misfit=float(misfit[k]),
                 site=AT_EDGES,
                 sources=found.source.stencil(int(k), float(found.along[k, 0])),
                 followed=found.target.stencil(int(k), float(found.along[k, 1])),
-                depth=depths[k],
+                depth=float(depths[k]),
             )
-            for k in good
+            for k in np.flatnonzero(np.isfinite(found.gap))
         ]
-        node = int(self._node[contact])
-        return [place for place in places if self._like is not None or place.named_by(node)]
 
     def _gathered(self) -> Contacts:
         model, count = self._model, len(self._places)
@@ -450,7 +389,7 @@ class _Finder:
         followed, weights = _padded([place.followed for place in self._places])
         return Contacts(
             node=self._node,
-            site=np.array([place.site for place in self._places], dtype=np.int64),
+            sites=self._sites,
             source=self._source,
             target=self._target,
             reaction=self._state["contact_reaction"],
@@ -480,6 +419,13 @@ class _Finder:
                 stencil = (*place.sources, *place.followed)
                 grain[k] = side.grain.on(place.normal, stencil, self._position)
         return grain
+
+
+class _Stored(NamedTuple):
+    """The facets that are stored of a contact; under smooth targets these are parts of one."""
+
+    facets: Indices
+    smooth: bool
 
 
 def _around(facets: Indices, node: int) -> Indices:

@@ -6,8 +6,8 @@ import numpy as np
 
 from carom.auditing.arrays import Array
 from carom.auditing.model import AuditModel
-from carom.auditing.steps.contacts import AT_MULTIPLIER
 from carom.auditing.steps.place import Place
+from carom.auditing.steps.sites import AT_MULTIPLIER
 from carom.auditing.targets.mortar import Row, Rows
 
 

@@ -6,8 +6,8 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from carom.auditing.arrays import Array, Indices
-from carom.auditing.steps.contacts import AT_NODE
+from carom.auditing.arrays import Array
+from carom.auditing.steps.sites import AT_NODE
 
 ALIKE = 1e-6
 """Shares of nodes that differ by no more are as large as one another."""
@@ -32,8 +32,6 @@ class Place:
     node, area
         Of a multiplier its node, and what of it the target covers: an area [m²], in the plane a
         length [m].
-    clamped
-        Whether its foot is where a facet ends that reaches beyond its edge, whatever is farther.
     """
 
     gap: float
@@ -46,16 +44,6 @@ class Place:
     depth: float | None = None
     node: int = -1
     area: float = 0.0
-    clamped: bool = False
-
-    def apart(self, nodes: Indices, shares: Array) -> float:
-        """Return how far its nodes of the source are from others, by their weights."""
-        weights: dict[int, float] = {}
-        for node, weight in zip(nodes.tolist(), shares.tolist(), strict=True):
-            weights[node] = weights.get(node, 0.0) + weight
-        for node, weight in self.sources:
-            weights[node] = weights.get(node, 0.0) - weight
-        return sum(abs(weight) for weight in weights.values())
 
     def named_by(self, node: int) -> bool:
         """Return whether a node is the one that takes most of what presses on the source."""

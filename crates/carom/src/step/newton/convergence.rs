@@ -46,8 +46,11 @@ pub(crate) struct Convergence {
     /// What the tolerance of the contact problem leaves of motions [m]: where bodies rest in contact that is more than a part of their motion,
     /// and no iteration makes it smaller.
     pub left_by_contacts: f64,
-    /// How far the first iteration went [m].
+    /// How far the first iteration went, `snap` times [m].
     reach: f64,
+    /// How many times farther a correction may go: as far as in the whole step that this one is a part of, where nodes at the boundary have no mass. These
+    /// are in equilibrium, and may snap from one to the next however short the step is.
+    snap: f64,
     /// The last correction that was at most half of the one noted before [m], and the iterations since.
     least: f64,
     stalled: usize,
@@ -66,6 +69,7 @@ impl Convergence {
             // What iterations leave of the energy blended steps make good.
             StressRule::Conserving | StressRule::Weighted => CONTROL.less_safety,
         };
+        let length = interval.end - interval.start;
         Self {
             safety: if lags { f64::INFINITY } else { safety },
             is_changing,
@@ -74,6 +78,7 @@ impl Convergence {
             round_off: assembly.round_off(),
             left_by_contacts: 0.0,
             reach: 0.0,
+            snap: if interval.is_blended && length > 0.0 { interval.whole / length } else { 1.0 },
             least: f64::INFINITY,
             stalled: 0,
         }
@@ -172,7 +177,7 @@ impl Convergence {
     /// Refuses iterations that lead away from where they set out.
     fn check_reach(&mut self, iteration: usize, motion: f64, correction: f64) -> Result<(), StepError> {
         if iteration == 1 {
-            self.reach = motion.max(correction).max(self.round_off);
+            self.reach = motion.max(correction).max(self.round_off) * self.snap;
         }
         if correction > CONTROL.astray * self.reach {
             return Err(StepError::Astray { iterations: iteration, correction, reach: self.reach });
@@ -209,6 +214,7 @@ mod tests {
         round_off: 0.0,
         left_by_contacts: 0.0,
         reach: 0.0,
+        snap: 1.0,
         least: f64::INFINITY,
         stalled: 0,
     };
@@ -262,6 +268,20 @@ mod tests {
     fn a_renewed_factor_is_given_time_where_bodies_stay_what_they_are() {
         assert_eq!(renewals(DYNAMIC), [12, 24]);
         assert!(renewals(Convergence { is_changing: true, ..DYNAMIC }).into_iter().eq(3..=30));
+    }
+
+    /// Symptom guarded against: boundaries without mass snapped by 0.1 mm, and every step that led there was refused, the shorter the surer.
+    #[test]
+    fn parts_of_a_step_may_snap_as_far_as_the_whole_one() {
+        let second = |snap: f64, correction: f64| {
+            let mut convergence = Convergence { snap, ..DYNAMIC };
+            convergence.check_reach(1, 1.0, 0.5).expect("the first correction is as large as it is");
+            convergence.check_reach(2, 1.0, correction)
+        };
+        assert!(second(1.0, 0.9 * CONTROL.astray).is_ok());
+        assert!(second(1.0, 1.1 * CONTROL.astray).is_err());
+        assert!(second(256.0, 250.0 * CONTROL.astray).is_ok());
+        assert!(second(256.0, 260.0 * CONTROL.astray).is_err());
     }
 
     /// Loosely where much is still to come, to the end where this may be the end, and where it costs little.
