@@ -45,7 +45,7 @@ def test_a_layer_sticks_or_slips_as_is_known_exactly(example, tmp_path):
 
 def test_a_thin_masonry_arch_falls_and_a_thick_one_does_not(example, tmp_path):
     with pytest.warns(carom.CaromWarning, match="waves will not be resolved"):
-        example("masonry_arch").main(tmp_path, end_time=0.25)
+        example("masonry_arch").main(tmp_path, end_time=0.1)
 
 
 def test_a_shaft_presses_on_its_hub_as_lame_says(examples, tmp_path):

@@ -94,7 +94,7 @@ def test_coarse_bodies_of_second_order_meet_between_their_nodes(first, second, t
             {"name": "b", "material": "soft", "mesh": second, "velocity": [-2.5, 0.0, 0.0]},
         ],
         "contact": {"friction": 0.0},
-        "output": {"audit": True, "fields_every": 8e-3},
+        "output": {"audit": True, "fields_every": 1.6e-2},
     }
     result = carom.run(carom.Scenario.from_dict(case), out=tmp_path)
     assert result.summary["status"] == "completed" and result.summary["contacts"]

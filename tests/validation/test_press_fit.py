@@ -10,9 +10,19 @@ import carom
 DIVISIONS = {"slice": (8, 16, 32), "revolution": (4, 8, 16)}
 
 
-@pytest.mark.parametrize("way", WAYS)
+# Every way in bodies of revolution, and one of them in a slice.
+LONG = {("slice", "overlap"), ("slice", "growth")}
+
+
+@pytest.mark.parametrize(
+    ("shape", "way"),
+    [
+        pytest.param(shape, way, marks=pytest.mark.long if (shape, way) in LONG else ())
+        for shape in DIVISIONS
+        for way in WAYS
+    ],
+)
 @pytest.mark.parametrize("discretisation", DISCRETISATIONS)
-@pytest.mark.parametrize("shape", DIVISIONS)
 def test_the_pressure_tends_to_that_of_lame(shape, discretisation, way):
     fits = [press_fits.fit(shape, way, discretisation, n) for n in DIVISIONS[shape]]
     errors = [abs(fit.error) for fit in fits]

@@ -2,7 +2,7 @@
 
 Published axisymmetric solutions of this bar (among them Kamoulakos 1990, Zhu & Cescotto 1995,
 Camacho & Ortiz 1997) end at a length of 21.4 to 21.5 mm and a foot radius of 7.0 to 7.2 mm.
-The mesh here is coarse, 4 × 40 cells.
+The mesh here is coarse, 4 × 30 cells.
 """
 
 import numpy as np
@@ -17,7 +17,7 @@ LENGTH, RADIUS = 32.4e-3, 3.2e-3
 
 @pytest.fixture(scope="module")
 def bar(tmp_path_factory):
-    coarse = ["bodies.0.mesh.divisions=[4, 40]", "analysis.time_step=1e-7"]
+    coarse = ["bodies.0.mesh.divisions=[4, 30]", "analysis.time_step=1e-7"]
     scenario = Scenario.from_toml(EXAMPLES / "taylor_bar.toml").with_overrides(coarse)
     return carom.run(scenario, out=tmp_path_factory.mktemp("taylor"))
 

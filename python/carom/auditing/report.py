@@ -54,16 +54,18 @@ class Check:
 
     def note(self, figures: Values, tolerances: Values, where: str) -> None:
         """Take note of deviations and what they may be at most, in the same unit."""
-        figure, tolerance = np.broadcast_arrays(
-            np.abs(np.asarray(figures, dtype=np.float64)), np.asarray(tolerances, dtype=np.float64)
-        )
+        figure = np.abs(np.asarray(figures, dtype=np.float64))
+        tolerance = np.asarray(tolerances, dtype=np.float64)
+        if figure.shape != tolerance.shape:
+            figure, tolerance = np.broadcast_arrays(figure, tolerance)
         figure, tolerance = figure.ravel(), tolerance.ravel()
         if len(figure) == 0:
             return
         self.count += len(figure)
         # 0 is within any tolerance, also within 0.
-        ratio = np.where(figure == 0.0, 0.0, figure / np.where(tolerance > 0, tolerance, 1e-300))
-        ratio = np.where(np.isnan(ratio), np.inf, ratio)
+        ratio = figure / np.where(tolerance > 0, tolerance, 1e-300)
+        ratio[figure == 0.0] = 0.0
+        ratio[np.isnan(ratio)] = np.inf
         worst = int(ratio.argmax())
         if ratio[worst] > self._ratio:
             self._ratio = float(ratio[worst])

@@ -18,6 +18,8 @@ from tampered import in_case, in_h5, in_summary, little_more
 
 RUBBER = {"c10": 400.0, "bulk": 3000.0, "density": 1.0}
 
+FEW = {"output.fields_every": 0.06, "analysis.end_time": 0.18}
+
 METHODS = [
     (condition, scheme)
     for condition in ("gap", "midpoint", "endpoint", "massless")
@@ -33,7 +35,8 @@ def results(tmp_path_factory):
     def directory(*method):
         if method not in done:
             out = tmp_path_factory.mktemp("results")
-            carom.run(scenario(*method), out=out)
+            # No more steps than are needed: every change audits all of them again.
+            carom.run(scenario(*method, **FEW), out=out)
             done[method] = out
         return done[method]
 
@@ -50,9 +53,9 @@ def test_every_method_is_confirmed(results, method):
     audit = carom.audit(results(*method))
     assert audit.refuted == ()
     checks = {check.name: check for check in audit.checks}
-    assert checks["Coulomb: cone"].count > 10  # there was contact
+    assert checks["Coulomb: cone"].count > 5  # there was contact
     energy = checks["kinetic energy"]
-    assert energy.count == 6
+    assert energy.count == 4
     assert energy.figure < 1e-12
     assert checks["equation of motion"].figure < 1e-5
     assert ("energy of the step" in checks) == (method[1] == "conserving")
@@ -141,7 +144,7 @@ def called(status):
     return tamper
 
 
-STEP = "audit.h5:steps/000002"
+STEP = "audit.h5:steps/000001"
 POINTS = "fields.vtkhdf:VTKHDF/PointData"
 SURFACE_POINTS = "surface.vtkhdf:VTKHDF/PointData"
 

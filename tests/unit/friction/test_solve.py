@@ -124,13 +124,13 @@ def test_the_time_limit_ends_a_solve(problem):
 
 @pytest.fixture(scope="module")
 def large():
-    """1e4 contacts whose factors take seconds."""
+    """5e3 contacts whose factors take a quarter of a minute."""
     random = np.random.default_rng(0)
-    bodies = random.integers(0, 2000, (10_000, 2))
-    rows = np.repeat(np.arange(30_000), 6)
+    bodies = random.integers(0, 1000, (5_000, 2))
+    rows = np.repeat(np.arange(15_000), 6)
     columns = (3 * np.repeat(bodies, 3, axis=0)[:, :, None] + np.arange(3)).ravel()
-    H = sp.csr_array((random.standard_normal(rows.size), (rows, columns)), shape=(30_000, 6000))
-    return friction.Problem((H @ H.T).tocsr(), random.standard_normal((10_000, 3)) - 0.1, 0.4)
+    H = sp.csr_array((random.standard_normal(rows.size), (rows, columns)), shape=(15_000, 3000))
+    return friction.Problem((H @ H.T).tocsr(), random.standard_normal((5_000, 3)) - 0.1, 0.4)
 
 
 @every_solver
@@ -139,9 +139,9 @@ def test_a_large_problem_ends_in_time(solver, large):
     start = process_time()
     found = friction.solve(large, solver=solver, tolerance=1e-300, time_limit=0.5)
     assert found.status == "time-limit"
-    # Processor time, which a busy machine does not stretch. The order of elimination cannot be cut
-    # short, and a limit of half a second is less than it takes.
-    assert process_time() - start < 20.0
+    # Processor time, which a busy machine does not stretch; the order of elimination cannot be cut
+    # short. Measured: 0.55 s.
+    assert process_time() - start < 5.0
 
 
 def test_a_large_global_problem_ends_in_time():

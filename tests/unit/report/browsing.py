@@ -4,12 +4,20 @@ import sys
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).parents[3] / "tools"))
-from get_browser import WEBGL, found
+import get_browser
+from get_browser import found
 
-__all__ = ["BLIND", "WEBGL", "Pages", "drawn", "found", "frame", "scrub_to"]
+__all__ = ["BLIND", "WEBGL", "Pages", "drawn", "found", "frame", "resize", "scrub_to", "told"]
 
 SIZE = {"width": 1100, "height": 700}
 
+
+WEBGL = (*get_browser.WEBGL, "--disable-gpu-compositing")
+"""Arguments with which it draws in 3D, and puts pages together without doing so: in half the time
+where there is no graphics card."""
+
+STALL = "GPU stall due to ReadPixels"
+"""What it warns of where it then reads scenes back."""
 
 BLIND = ("--disable-gpu", "--disable-3d-apis", "--no-sandbox")
 """Arguments with which it does not draw in 3D, as some remote desktops and old machines."""
@@ -26,7 +34,7 @@ class Pages:
         context = self._browser.new_context(**{"viewport": SIZE, **options})
         context.set_offline(True)
         page = context.new_page()
-        page.on("console", lambda message: self.wrong.append(f"{message.type}: {message.text}"))
+        page.on("console", lambda message: self.wrong.extend(told(message)))
         page.on("pageerror", lambda error: self.wrong.append(str(error)))
         page.on("request", self._asked)
         page.goto(Path(file).resolve().as_uri())
@@ -36,6 +44,11 @@ class Pages:
     def _asked(self, request):
         if not request.url.startswith("file:") or request.resource_type != "document":
             self.wrong.append(f"asked for {request.url[:80]}")
+
+
+def told(message):
+    """What a message of the console says of a page: nothing where it is about this browser."""
+    return [] if STALL in message.text else [f"{message.type}: {message.text}"]
 
 
 def scrub_to(page, frame):
@@ -48,9 +61,19 @@ def frame(page):
     return int(page.locator("#stage").get_attribute("data-frame"))
 
 
-def drawn(page):
-    """What the scene shows, as a picture."""
+def resize(page, width, height):
+    """Make its window as large and wait for what follows; a page of its own takes some seconds."""
+    page.set_viewport_size({"width": width, "height": height})
+    next_frame(page)
+
+
+def next_frame(page):
     page.evaluate(
         "() => new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))"
     )
+
+
+def drawn(page):
+    """What the scene shows, as a picture."""
+    next_frame(page)
     return page.locator("#stage canvas").screenshot()

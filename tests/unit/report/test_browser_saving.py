@@ -8,10 +8,15 @@ from xml.etree import ElementTree
 
 import PIL.Image
 import pytest
-from browsing import drawn, frame, scrub_to
+from browsing import drawn, frame, resize, scrub_to
 
 import carom.report
 from carom.io import layout
+
+
+@pytest.fixture(scope="module")
+def steel_page(steel, pages):
+    return pages.open(steel.path / layout.REPORT)
 
 
 @pytest.fixture(autouse=True)
@@ -51,10 +56,9 @@ def test_the_scene_is_saved_as_a_picture(disc, opened, scheme):
     assert drawn(page) == before  # nothing of the page has changed
 
 
-def test_curves_are_saved_as_pictures_drawings_and_numbers(disc, opened):
-    page = opened(disc.path / layout.REPORT)
-    assert colours_of(content(page, "Save as PNG: Energy")) > 50
-    svg = ElementTree.fromstring(content(page, "Save as SVG: Energy"))
+def test_curves_are_saved_as_pictures_drawings_and_numbers(disc, disc_page):
+    assert colours_of(content(disc_page, "Save as PNG: Energy")) > 50
+    svg = ElementTree.fromstring(content(disc_page, "Save as SVG: Energy"))
     space = "{http://www.w3.org/2000/svg}"
     texts = [text.text for text in svg.iter(f"{space}text")]
     assert texts[0] == "Energy [J]"
@@ -62,48 +66,48 @@ def test_curves_are_saved_as_pictures_drawings_and_numbers(disc, opened):
     curves = [path.get("d") for path in svg.iterfind(f"{space}g/{space}path")]
     assert len(curves) >= 3
     assert all(len(path.split("L")) > 10 for path in curves[:3])
-    lines = list(csv.DictReader(content(page, "Save as CSV: Energy").decode().splitlines()))
+    lines = list(csv.DictReader(content(disc_page, "Save as CSV: Energy").decode().splitlines()))
     history = disc.history
     assert [float(line["time [s]"]) for line in lines] == list(history["time"])
     assert [float(line["kinetic [J]"]) for line in lines] == list(history["kinetic"])
 
 
-def test_hidden_curves_and_what_is_not_zoomed_to_are_not_drawn(disc, opened):
-    page = opened(disc.path / layout.REPORT)
-    page.locator("#panel-energy .legend button", has_text="kinetic").click()
-    assert b">kinetic<" not in content(page, "Save as SVG: Energy")
-    assert b">strain<" in content(page, "Save as SVG: Energy")
+def test_hidden_curves_and_what_is_not_zoomed_to_are_not_drawn(disc_page):
+    kinetic = disc_page.locator("#panel-energy .legend button", has_text="kinetic")
+    kinetic.click()
+    assert b">kinetic<" not in content(disc_page, "Save as SVG: Energy")
+    assert b">strain<" in content(disc_page, "Save as SVG: Energy")
+    kinetic.click()
+    assert b">kinetic<" in content(disc_page, "Save as SVG: Energy")
 
 
-def test_tables_are_saved_with_all_digits(disc, opened):
-    page = opened(disc.path / layout.REPORT)
+def test_tables_are_saved_with_all_digits(disc, disc_page):
     summary = json.loads((disc.path / layout.SUMMARY).read_text())
     title = "Save the table as CSV: Where the energy went"
-    rows = list(csv.reader(content(page, title).decode().splitlines()))
+    rows = list(csv.reader(content(disc_page, title).decode().splitlines()))
     assert ["at the start", repr(summary["energy"]["initial"]), "J"] in rows
     title = "Save the table as CSV: Contact events"
-    (contact, *_) = csv.DictReader(content(page, title).decode().splitlines())
+    (contact, *_) = csv.DictReader(content(disc_page, title).decode().splitlines())
     assert contact["between"] == "disc – floor"
     assert float(contact["onset [s]"]) == summary["contacts"][0]["onset"]
     title = "Save the table as CSV: All numbers of summary.json"
-    assert not page.locator("#numbers").get_attribute("open")
-    numbers = dict(csv.reader(content(page, title).decode().splitlines()))
+    assert not disc_page.locator("#numbers").get_attribute("open")
+    numbers = dict(csv.reader(content(disc_page, title).decode().splitlines()))
     assert float(numbers["energy.friction"]) == summary["energy"]["friction"]
-    assert page.locator("#numbers").get_attribute("open") is None  # a save does not unfold it
+    assert disc_page.locator("#numbers").get_attribute("open") is None  # a save does not unfold it
 
 
-def test_a_film_of_the_run_is_saved(disc, opened):
-    page = opened(disc.path / layout.REPORT)
-    if not page.evaluate("typeof MediaRecorder !== 'undefined'"):
+def test_a_film_of_the_run_is_saved(disc_page):
+    if not disc_page.evaluate("typeof MediaRecorder !== 'undefined'"):
         pytest.skip("this browser records nothing")
-    page.select_option("#speed", "4")
+    disc_page.select_option("#speed", "4")
     name = "Save a film: the run plays once, at the speed chosen below"
-    film = saved(page, name)
+    film = saved(disc_page, name)
     assert film.suggested_filename == "disc-film.webm"
     data = Path(film.path()).read_bytes()
     assert data[:4] == bytes.fromhex("1A45DFA3")  # of EBML, which WebM is
     assert len(data) > 10_000
-    assert frame(page) == 20
+    assert frame(disc_page) == 20
 
 
 @pytest.mark.parametrize("scheme", ["light", "dark"])
@@ -135,15 +139,14 @@ def test_paper_shows_the_scene_and_whole_curves(disc, opened, scheme, width):
     assert page.locator("#stage").is_visible()
 
 
-def test_a_printed_page_is_prepared_before_it_is_laid_out(disc, opened):
-    page = opened(disc.path / layout.REPORT)
-    page.evaluate(
+def test_a_printed_page_is_prepared_before_it_is_laid_out(disc_page):
+    disc_page.evaluate(
         """() => addEventListener("beforeprint", () => {
             window.prepared = document.querySelectorAll(".printed svg, .printed canvas").length;
         })"""
     )
-    assert page.pdf(format="A4")[:5] == b"%PDF-"
-    assert page.evaluate("window.prepared") >= 5
+    assert disc_page.pdf(format="A4")[:5] == b"%PDF-"
+    assert disc_page.evaluate("window.prepared") >= 5
 
 
 def test_licences_of_what_the_page_holds_are_in_it(disc, disc_page):
@@ -156,8 +159,8 @@ def test_licences_of_what_the_page_holds_are_in_it(disc, disc_page):
 
 
 @pytest.mark.parametrize("width", [320, 600, 761, 768, 820, 901, 960, 1051, 1280])
-def test_no_width_of_the_screen_is_overrun(steel, opened, width):
+def test_no_width_of_the_screen_is_overrun(steel_page, width):
     """Symptom guarded against: at 768 pixels the page was 839 wide, by the transport."""
-    page = opened(steel.path / layout.REPORT, viewport={"width": width, "height": 740})
-    page.select_option("#speed", "0.25")
-    assert page.evaluate("document.documentElement.scrollWidth") <= width
+    steel_page.select_option("#speed", "0.25")
+    resize(steel_page, width, 740)
+    assert steel_page.evaluate("document.documentElement.scrollWidth") <= width

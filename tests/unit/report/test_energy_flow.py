@@ -4,6 +4,7 @@ import re
 
 import numpy as np
 import pytest
+from browsing import resize
 
 from carom.io import layout
 from carom.ledger_terms import terms
@@ -75,8 +76,9 @@ def test_a_run_without_energy_has_no_drawing(disc):
 
 
 @pytest.mark.parametrize("width", [1440, 1050, 360])
-def test_labels_do_not_meet_on_any_width(disc, opened, width):
-    page = opened(disc.path / layout.REPORT, viewport={"width": width, "height": 800})
+def test_labels_do_not_meet_on_any_width(disc_page, width):
+    page = disc_page
+    resize(page, width, 800)
     boxes = page.locator(".flow li").evaluate_all(
         "all => all.map(e => e.getBoundingClientRect()).map(b => [b.x, b.right, b.y, b.bottom])"
     )

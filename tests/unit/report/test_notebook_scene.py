@@ -5,6 +5,7 @@ import re
 import xml.etree.ElementTree as ET
 
 import pytest
+from browsing import told
 
 from carom.io import layout
 from carom.report import notebook
@@ -30,7 +31,7 @@ def cell(browser, tmp_path):
         made.append(context)
         context.set_offline(True)
         page = context.new_page()
-        page.on("console", lambda message: wrong.append(message.text))
+        page.on("console", lambda message: wrong.extend(told(message)))
         page.on("pageerror", lambda error: wrong.append(str(error)))
         page.on("request", asked)
         page.goto(file.as_uri())

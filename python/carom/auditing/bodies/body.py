@@ -207,7 +207,7 @@ class AuditBody(MovingBody):
         """Return facets of its boundary by their nodes."""
         return Facets(self.dimension, nodes, self.thickness, self.revolution)
 
-    @property
+    @cached_property
     def facet_areas(self) -> Array:
         """Areas of the facets that may touch others [m²], shape [facet_count]."""
         return self.faces(self.facets).areas(self.points)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import cache
+
 import numpy as np
 
 from carom.auditing.arrays import Array
@@ -28,7 +30,7 @@ def _rule(kind: Kind, degree: int) -> Rule:
     if kind.is_wedge:
         return _swept(kind)
     if not kind.is_simplex:
-        return _gauss(kind)
+        return _gauss(kind.degree, kind.dimension)
     return (_triangle if kind.dimension == 2 else _tetrahedron)(degree)
 
 
@@ -40,11 +42,12 @@ def _swept(kind: Kind) -> Rule:
     return np.concatenate(table), np.concatenate([share * weights for share in shares])
 
 
-def _gauss(kind: Kind) -> Rule:
+@cache
+def _gauss(degree: int, dimension: int) -> Rule:
     """Return the product of Gauss's rules with two or, for the second degree, three points."""
-    places, weights = np.polynomial.legendre.leggauss(kind.degree + 1)
-    grids = np.meshgrid(*[places] * kind.dimension, indexing="ij")
-    parts = np.meshgrid(*[weights] * kind.dimension, indexing="ij")
+    places, weights = np.polynomial.legendre.leggauss(degree + 1)
+    grids = np.meshgrid(*[places] * dimension, indexing="ij")
+    parts = np.meshgrid(*[weights] * dimension, indexing="ij")
     weight: Array = np.prod([part.ravel() for part in parts], axis=0)
     return np.stack([grid.ravel() for grid in grids], axis=1), weight
 

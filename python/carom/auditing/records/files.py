@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 from pathlib import Path
@@ -201,17 +201,18 @@ class Files:
         with _Fields(self.path / name) as root:
             steps, dimension = root["Steps"], self.scenario.dimension
             points, cells = len(root["Points"]), len(root["Types"])
+            of_points = _stored(root, "PointData", point_fields)
+            of_cells = _stored(root, "CellData", cell_fields)
+            times = steps["Values"][:]
             for index in range(int(steps.attrs["NSteps"])):
-                fields: dict[str, Any] = {"time": float(steps["Values"][index]), "flat": 0.0}
-                for field in point_fields:
-                    at = int(steps[f"PointDataOffsets/{field}"][index])
-                    vectors = root[f"PointData/{field}"][at : at + points]
+                fields: dict[str, Any] = {"time": float(times[index]), "flat": 0.0}
+                for field, (stored, offsets) in of_points.items():
+                    vectors = stored[offsets[index] : offsets[index] + points]
                     out = float(np.abs(vectors[:, dimension:]).max(initial=0.0))
                     fields["flat"] = max(fields["flat"], out)
                     fields[field] = vectors[:, :dimension]
-                for field in cell_fields:
-                    at = int(steps[f"CellDataOffsets/{field}"][index])
-                    rows = root[f"CellData/{field}"][at : at + cells]
+                for field, (stored, offsets) in of_cells.items():
+                    rows = stored[offsets[index] : offsets[index] + cells]
                     fields[field] = rows[:, 0] if rows.shape[1] == 1 else rows
                 yield fields
 
@@ -219,6 +220,16 @@ class Files:
         """Yield the stored steps, of which there are none without ``output.audit``."""
         if self.has_steps:
             yield from read_steps(self.path / layout.AUDIT)
+
+
+def _stored(
+    root: h5py.Group, kind: str, fields: Iterable[str]
+) -> dict[str, tuple[h5py.Dataset, Indices]]:
+    """Return where fields are stored, and the row of each at which the output times begin."""
+    return {
+        field: (root[f"{kind}/{field}"], root[f"Steps/{kind}Offsets/{field}"][:].astype(np.int64))
+        for field in fields
+    }
 
 
 def _even(connectivity: Indices, offsets: Indices) -> Indices:

@@ -47,6 +47,7 @@ class Scales:
 
     def __init__(self, model: AuditModel) -> None:
         self._model = model
+        self._iterations: dict[tuple[float, int], Array] = {}
         self.speed = model.fastest_obstacle
         """Largest speed of a node, or of an obstacle [m/s]."""
         self.reach = model.fastest_obstacle * model.stage.duration
@@ -161,6 +162,12 @@ class Scales:
 
     def iteration(self, dt: float, index: int) -> Array:
         """Return the force on nodes where all displacements are off by 1 m [N/m], [node_count]."""
+        key = (dt, index)
+        if key not in self._iterations:
+            self._iterations[key] = self._iteration(dt, index)
+        return self._iterations[key]
+
+    def _iteration(self, dt: float, index: int) -> Array:
         body, model = self._model.bodies[index], self._model
         rate = 0.0 if model.static else 1 / (model.theta * dt)
         if model.static and body.rigid:

@@ -103,10 +103,15 @@ class Domain:
         slope, metric
             b and A, positive definite, shapes [count, 2] and [count, 2, 2].
         """
-        free = solved_in_plane(metric, slope)
-        inside = (self.inside(xi + free) >= 0.0).all(axis=1)
-        best: Array = free
-        least = np.where(inside, -np.inf, np.inf)
+        best = solved_in_plane(metric, slope)
+        out = np.flatnonzero(~(self.inside(xi + best) >= 0.0).all(axis=1))
+        if len(out):
+            best[out] = self._along_edges(xi[out], slope[out], metric[out])
+        return best
+
+    def _along_edges(self, xi: Array, slope: Array, metric: Array) -> Array:
+        """Return the steps to edges that minimise the same."""
+        best, least = np.zeros_like(xi), np.full(len(xi), np.inf)
         after = np.roll(self.corners, -1, axis=0)
         for a, b in zip(self.corners, after, strict=True):
             along = b - a

@@ -12,7 +12,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from carom.auditing.arrays import Array, Indices, Mask, einsum
+from carom.auditing.arrays import Array, Indices, Mask, einsum, sizes
 from carom.auditing.mesh.facets import corners_of, node_counts
 from carom.auditing.targets.combination import Combination
 from carom.auditing.targets.domain import SQUARE, TRIANGLE, Domain, Domains
@@ -25,6 +25,9 @@ from carom.auditing.targets.tiles import cut, padded
 LOOSE = 0.05
 """Patches do not quite meet at sharp edges where some are cells of second degree as they are: up to
 this part of their size their distances say nothing of which is closer."""
+
+CONTROLS = 20
+"""Control points of a patch with four sides; one with three has 15."""
 
 
 class GregoryPatches:
@@ -66,12 +69,13 @@ class GregoryPatches:
         flat = facets[whole]
         self._flat = FlatPatches(flat)
         widest = max([flat.shape[1] if len(flat) else 0, *map(len, used)])
-        self._weights = np.zeros((len(kept), 20, widest))
+        self._weights = np.zeros((len(kept), CONTROLS, widest))
         """Weights of the nodes in every control point, [tile, control, node]."""
         for k, (own, nodes) in enumerate(zip(controls, used, strict=True)):
             for row, control in zip(self._weights[k], own, strict=False):
                 for node, weight in control.weights.items():
                     row[nodes.index(node)] = weight
+        self._count = max(CONTROLS, flat.shape[1])
         self.nodes = padded([*used, *flat.tolist()], widest)
         corners = [tiles[tile] for tile in kept]
         self.facets = padded([*corners, *flat.tolist()], max(flat.shape[1], 4))
@@ -84,11 +88,32 @@ class GregoryPatches:
             [rims, rim_edges(padded(corners_of(facets, 3).tolist(), 4))[whole]]
         )
 
+    def controls(self, position: Array) -> Array:
+        """Return the control points, see `Patches`."""
+        controls = np.zeros((len(self.nodes), self._count, 3))
+        kept = len(self._weights)
+        controls[:kept, :CONTROLS] = einsum(
+            "kcn,kni->kci", self._weights, position[self.nodes[:kept]]
+        )
+        flat = self._flat.controls(position)
+        controls[kept:, : flat.shape[1]] = flat
+        return controls
+
+    def reach(self, controls: Array, centre: Array) -> Array:
+        """Return radii of spheres that patches are within, see `Patches`.
+
+        Shares are positive and make one: patches are within the hull of their control points.
+        """
+        kept = len(self._weights)
+        far = sizes(controls[:kept, :CONTROLS] - centre[:kept, None])
+        far = np.where(self._weights.any(axis=2), far, 0.0).max(axis=1, initial=0.0)
+        return np.append(far, self._flat.reach(controls[kept:], centre[kept:]))
+
     def values(self, patch: Indices, xi: Array) -> Array:
-        """Return the weights of the nodes at ξ, shape [count, node]."""
-        values = np.zeros((len(patch), self.nodes.shape[1]))
-        for mine, own, shares, _ in self._shares(patch, xi):
-            values[mine] = einsum("kc,kcn->kn", shares, self._weights[own][:, : shares.shape[1]])
+        """Return the shares of the control points at ξ, shape [count, c]."""
+        values = np.zeros((len(patch), self._count))
+        for mine, shares, _ in self._shares(patch, xi):
+            values[mine, : shares.shape[1]] = shares
         flat = ~self.curved[patch]
         if flat.any():
             found = self._flat.values(patch[flat] - len(self._weights), xi[flat])
@@ -96,24 +121,34 @@ class GregoryPatches:
         return values
 
     def slopes(self, patch: Indices, xi: Array) -> Array:
-        """Return their derivatives by ξ, shape [count, node, 2]."""
-        slopes = np.zeros((len(patch), self.nodes.shape[1], 2))
-        for mine, own, _, shares in self._shares(patch, xi):
-            weights = self._weights[own][:, : shares.shape[1]]
-            slopes[mine] = einsum("kca,kcn->kna", shares, weights)
+        """Return their derivatives by ξ, shape [count, c, 2]."""
+        slopes = np.zeros((len(patch), self._count, 2))
+        for mine, _, shares in self._shares(patch, xi):
+            slopes[mine, : shares.shape[1]] = shares
         flat = ~self.curved[patch]
         if flat.any():
             found = self._flat.slopes(patch[flat] - len(self._weights), xi[flat])
             slopes[flat, : found.shape[1]] = found
         return slopes
 
-    def _shares(self, patch: Indices, xi: Array) -> Iterator[tuple[Mask, Indices, Array, Array]]:
-        """Yield curved patches of either kind: which they are, and the shares of controls."""
+    def of_nodes(self, patch: Indices, shares: Array) -> Array:
+        """Return the weights of nodes that make shares of control points, shape [count, n]."""
+        weights = np.zeros((len(patch), self.nodes.shape[1]))
+        curved = self.curved[patch]
+        weights[curved] = einsum(
+            "kc,kcn->kn", shares[curved, :CONTROLS], self._weights[patch[curved]]
+        )
+        width = self._flat.nodes.shape[1]
+        weights[~curved, :width] = shares[~curved, :width]
+        return weights
+
+    def _shares(self, patch: Indices, xi: Array) -> Iterator[tuple[Mask, Array, Array]]:
+        """Yield for curved patches of either kind which they are, shares, and their slopes."""
         triangular = self.domains.triangular[patch]
         for domain, chosen in ((TRIANGLE, triangular), (SQUARE, ~triangular)):
             mine = chosen & self.curved[patch]
             if mine.any():
-                yield mine, patch[mine], *shape_functions(domain, xi[mine])
+                yield mine, *shape_functions(domain, xi[mine])
 
     def _controls(self, network: Network, tangents: Tangents, facet: int) -> list[Combination]:
         nodes = network.facets[facet]
