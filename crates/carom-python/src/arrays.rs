@@ -1,13 +1,11 @@
 //! Nodal and cell data as NumPy arrays.
 
-use carom::{Model, ModelBody, State, VibrationEnergies};
+use carom::{ModelBody, VibrationEnergies};
 use carom_mesh::{CellKind, Mesh, Surface, Vector};
 use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray2};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-
-use crate::contacts;
 
 /// One row per vector.
 pub fn vectors<'py, const D: usize>(py: Python<'py>, v: &[Vector<D>]) -> PyResult<Bound<'py, PyArray2<f64>>> {
@@ -66,23 +64,6 @@ pub fn vibrations<'py>(py: Python<'py>, own: &VibrationEnergies) -> PyResult<Bou
 pub fn table(py: Python<'_>, values: Vec<f64>, width: usize) -> PyResult<Bound<'_, PyArray2<f64>>> {
     let rows = values.len() / width;
     PyArray1::from_vec(py, values).reshape([rows, width])
-}
-
-/// A state with the energy that each body has yet to give back [J] and its [contacts](crate::contacts::set).
-pub fn state<'py, const D: usize>(
-    py: Python<'py>,
-    model: &Model<D>,
-    state: &State<D>,
-) -> PyResult<Bound<'py, PyDict>> {
-    let out = PyDict::new(py);
-    out.set_item("time", state.time)?;
-    let nodes = model.node_count();
-    out.set_item("displacement", vectors(py, &state.displacement[..nodes])?)?;
-    out.set_item("velocity", vectors(py, &state.velocity[..nodes])?)?;
-    out.set_item("energy_debt", PyArray1::from_slice(py, &state.energy_debt))?;
-    out.set_item("contact_force", vectors(py, &state.contact_force[..nodes])?)?;
-    contacts::set(&out, model, &state.reactions)?;
-    Ok(out)
 }
 
 /// The meshes of all bodies as one unstructured grid in VTK's numbering.

@@ -3,7 +3,6 @@
 
 mod arrays;
 mod checkpoint;
-mod contacts;
 mod dimension;
 mod engine;
 mod error;
@@ -14,6 +13,7 @@ mod mesh;
 mod planted;
 mod signal;
 mod simulation;
+mod state;
 
 use pyo3::prelude::*;
 

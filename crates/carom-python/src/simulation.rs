@@ -13,7 +13,7 @@ use crate::dimension::{Dimension, with};
 use crate::engine::PythonEngine;
 use crate::error::{input_error, run_error};
 use crate::foreign::{Calls, is_error, laws};
-use crate::{arrays, checkpoint, mesh};
+use crate::{arrays, checkpoint, mesh, state};
 
 /// Wall time between two looks for Ctrl-C [s]; a step that takes longer is followed by one.
 const SIGNAL_INTERVAL: f64 = 0.02;
@@ -233,7 +233,7 @@ impl Simulation {
         let Some(step) = run.last_step() else { return Ok(None) };
         let out = PyDict::new(py);
         for (name, state) in [("start", step.start), ("end", step.end)] {
-            out.set_item(name, arrays::state(py, run.model(), state)?)?;
+            out.set_item(name, state::arrays(py, run.model(), state)?)?;
         }
         out.set_item("blend", PyArray1::from_slice(py, step.blend))?;
         out.set_item("vibration", PyArray1::from_slice(py, step.vibration))?;
@@ -245,11 +245,11 @@ impl Simulation {
         })
     }
 
-    /// The present state, see `arrays::state`.
+    /// The present state, see `state::arrays`.
     fn state<'py>(&mut self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         with!(&mut self.inner, run => {
             run.complete();
-            arrays::state(py, run.model(), run.state())
+            state::arrays(py, run.model(), run.state())
         })
     }
 

@@ -293,6 +293,46 @@ def test_states_of_reduced_bodies_are_confirmed_in_space(tmp_path):
     assert checks["kinetic parts"].count > 0
 
 
+RUBBER = {"kind": "neo-hookean", "young": 5000.0, "poisson": 0.3, "density": 1.0}
+
+
+def thrown(meshes, spin, time, **contact):
+    """Two bodies that are thrown at one another, audited at the end of some time [s]."""
+    case = {
+        "dimension": 3,
+        "analysis": {"end_time": time, "time_step": 2e-3},
+        "output": {"audit": True, "fields_every": time},
+        "materials": {"m": RUBBER},
+        "bodies": [
+            {"name": name, "material": "m", "mesh": mesh, "velocity": [speed, 0, 0]}
+            for name, mesh, speed in zip("ab", meshes, (2.5, -2.5), strict=True)
+        ],
+        "contact": {"condition": "gap", **contact},
+    }
+    case["bodies"][0]["spin"] = spin
+    return carom.Scenario.from_dict(case)
+
+
+def test_faces_that_lie_on_one_another_are_confirmed(tmp_path):
+    """Symptom guarded against: edges cross in many places there, and the auditor guessed which."""
+    corners = ([0, 0, 0], [1.02, 0.37, 0.1])
+    boxes = [
+        {"kind": "box", "corner": c, "size": [1, 1, 1], "divisions": [2, 2, 2]} for c in corners
+    ]
+    refuted, checks = audited(thrown(boxes, [0, 0, 0], 0.012, friction=0.3), tmp_path)
+    assert refuted == []
+    assert checks["Coulomb: slip"].count > 10
+
+
+def test_the_smallest_gap_may_be_that_of_a_contact_with_the_next_facet(tmp_path):
+    """Symptom guarded against: 0.17 mm more than there was, as that node faced another facet."""
+    ball = {"kind": "ball", "centre": [0.0, 0.19, -0.24], "radius": 1.0, "divisions": 2}
+    box = {"kind": "box", "corner": [1.15, -0.66, -0.99], "size": [2, 1.6, 1.6]}
+    meshes = [ball, box | {"divisions": [2, 2, 2]}]
+    refuted, _ = audited(thrown(meshes, [0.28, -0.55, 0.98], 0.064), tmp_path)
+    assert refuted == []
+
+
 STEP = "audit.h5:steps/000002"
 
 FALSE = {

@@ -1,6 +1,6 @@
-//! The contacts of a state as NumPy arrays.
+//! A state and its contacts as NumPy arrays.
 
-use carom::{Model, Reaction};
+use carom::{Model, Reaction, State};
 use carom_contact::{ContactModel, Site, Target};
 use carom_mesh::Vector;
 use numpy::{PyArray1, PyArrayMethods};
@@ -9,13 +9,30 @@ use pyo3::types::PyDict;
 
 use crate::arrays::vectors;
 
+/// A state with the energy that each body has yet to give back [J] and its contacts.
+pub fn arrays<'py, const D: usize>(
+    py: Python<'py>,
+    model: &Model<D>,
+    state: &State<D>,
+) -> PyResult<Bound<'py, PyDict>> {
+    let out = PyDict::new(py);
+    out.set_item("time", state.time)?;
+    let nodes = model.node_count();
+    out.set_item("displacement", vectors(py, &state.displacement[..nodes])?)?;
+    out.set_item("velocity", vectors(py, &state.velocity[..nodes])?)?;
+    out.set_item("energy_debt", PyArray1::from_slice(py, &state.energy_debt))?;
+    out.set_item("contact_force", vectors(py, &state.contact_force[..nodes])?)?;
+    set_contacts(&out, model, &state.reactions)?;
+    Ok(out)
+}
+
 /// Sets the entries of a state's contacts, one row of each.
 ///
 /// `contact_node` is the source node, of edges and facets the one that takes most. `contact_target` is the index of a body, or −1 − that of an
 /// obstacle. [`contact_site`](numbers_of) says where between the two the contact is, and `contact_facet` has the nodes of the facet that it is on,
 /// or the corners of one of an obstacle, and then −1. Then follow the gap [m] where the condition was written, the normal, the force on the
 /// source [N], and the adhesion [N] that this is less by than what is in Coulomb's cone: 0 where nothing holds.
-pub fn set<const D: usize>(
+fn set_contacts<const D: usize>(
     out: &Bound<'_, PyDict>,
     model: &Model<D>,
     reactions: &[Reaction<D>],
