@@ -13,7 +13,9 @@ from carom.auditing.targets.feet import Feet
 Stencil = list[tuple[int, float]]
 
 
-def between_nodes(model: AuditModel, stencil: Stencil, number: int, position: Array) -> list[Place]:
+def between_nodes(
+    model: AuditModel, stencil: Stencil, number: int, position: Array, *, resolves: bool
+) -> list[Place]:
     """Return the places of a point of an edge on the facets of a body.
 
     Parameters
@@ -24,11 +26,15 @@ def between_nodes(model: AuditModel, stencil: Stencil, number: int, position: Ar
         What the point follows.
     number
         The body whose facets it is before.
+    resolves
+        Whether overlaps are being taken up, so that it matters how deep it was as drawn.
     """
     span, target = model.bodies[number].span, model.targets[number]
     feet = target.feet(_point(stencil, position)[None], position[span])
-    drawn = target.signed_distance(_point(stencil, model.points)[None], model.points[span])
-    depth = max(-float(drawn[0]), 0.0)
+    depth = 0.0
+    if resolves:
+        drawn = target.signed_distance(_point(stencil, model.points)[None], model.points[span])
+        depth = max(-float(drawn[0]), 0.0)
     return [_place(feet, row, stencil, span.start, depth) for row in range(len(feet.gap))]
 
 

@@ -11,7 +11,7 @@ import numpy as np
 
 from carom.auditing.arrays import Array, Indices
 from carom.auditing.contact.crossings import crossings, drawn_depths
-from carom.auditing.contact.edges import edges
+from carom.auditing.contact.edges import Edges, edges
 from carom.auditing.contact.obstacles import Cornered, Round
 from carom.auditing.contact.rounding import nearest_place
 from carom.auditing.model import AuditModel
@@ -106,6 +106,7 @@ class _Finder:
 
         self._multipliers: dict[tuple[int, int], list[Place]] = {}
         """The multipliers of mortar pairs, by source and target."""
+        self._edges_of: dict[int, Edges] = {}
 
     def _pushed_apart(self, contact: int, depth: float | None) -> Array:
         """Return the interference at both ends of the step [m] of a contact as deep, shape [2].
@@ -206,8 +207,7 @@ class _Finder:
             body, target = self._model.bodies[source], self._model.targets[source]
             places = at_corner(shape, shift, node, (body, target), self._position)
         elif kind == AT_EDGES and isinstance(shape, Cornered) and self._model.dimension == 3:
-            mine = edges(self._model.bodies[int(self._source[contact])])
-            both = mine.between(self._sites.edge(contact)), self._sites.crossed(contact)
+            both = self._edge(contact), self._sites.crossed(contact)
             drawn = (self._model.points, self._position)
             places = at_edges(shape, shift, both, drawn, self._normal[contact])
         self._choose(contact, places)
@@ -245,11 +245,13 @@ class _Finder:
         elif kind == AT_EDGES and self._model.dimension == 3:
             places = self._at_edges(number, contact)
         elif kind == BETWEEN_NODES and self._model.dimension == 3:
-            mine = edges(self._model.bodies[int(self._source[contact])])
-            mine = mine.between(self._sites.edge(contact))
+            mine = self._edge(contact)
             if len(mine):
                 stencil = self._sites.point(contact, mine)
-                places = between_nodes(self._model, stencil, number, self._position)
+                resolves = bool(self._resolves[contact])
+                places = between_nodes(
+                    self._model, stencil, number, self._position, resolves=resolves
+                )
         self._choose(contact, places)
 
     def _under_multipliers(self, number: int, contact: int) -> list[Place]:
@@ -273,16 +275,16 @@ class _Finder:
             node = int(self._node[contact])
             found = [p for p in found if p.site == AT_MULTIPLIER or p.named_by(node)]
             stored = self._stored_facets(contact)
-            on = [place for place in found if place.facet in stored.facets]
+            facets = stored.facets
             if self._sites.kind[contact] in ON_FACETS and not stored.smooth:
-                found = on
-            least = min((place.misfit for place in found), default=np.inf) + SAME
+                found = [place for place in found if place.facet in facets]
+            least = min((place.misfit for place in found), default=np.inf)
+            found = [place for place in found if place.misfit <= least + SAME]
         else:
-            on = [place for place in found if place.facet == int(self._like.facet[contact])]
-            least = np.inf
-        best = [place for place in on or found if place.misfit <= least]
-        if best or found:
-            self._places[contact] = min(best or found, key=lambda place: place.misfit)
+            facets = self._like.facet[[contact]]
+        found = [place for place in found if place.facet in facets] or found
+        if found:
+            self._places[contact] = min(found, key=lambda place: place.misfit)
 
     def _stored_facets(self, contact: int) -> _Stored:
         """Return the facets that are stored of a contact."""
@@ -352,12 +354,21 @@ class _Finder:
             ],
         )
 
+    def _edges(self, body: int) -> Edges:
+        """Return the edges of a body, found once."""
+        if body not in self._edges_of:
+            self._edges_of[body] = edges(self._model.bodies[body])
+        return self._edges_of[body]
+
+    def _edge(self, contact: int) -> Edges:
+        """Return the edge of the source of a contact; none if it has no such edge."""
+        return self._edges(int(self._source[contact])).between(self._sites.edge(contact))
+
     def _at_edges(self, number: int, contact: int) -> list[Place]:
         """Return where the edge of the source crosses that of the target."""
         model = self._model
-        mine = edges(model.bodies[int(self._source[contact])]).between(self._sites.edge(contact))
-        theirs = edges(model.bodies[number]).between(self._sites.crossed(contact))
-        found = crossings(self._position, mine, theirs, self._normal[contact])
+        theirs = self._edges(number).between(self._sites.crossed(contact))
+        found = crossings(self._position, self._edge(contact), theirs, self._normal[contact])
         depths = drawn_depths(model.points, found)
         return [
             Place(
