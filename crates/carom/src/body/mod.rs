@@ -157,7 +157,7 @@ pub struct Balance {
 /// What is known of the boundary at the end of a step when its balance is asked for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Outlook {
-    /// The guess is the first one, far from any balance: none is wanted, nor the forces that give back momenta.
+    /// Nothing will press on the body, and the guess is the first one, far from any balance: none is wanted, nor the forces that give back momenta.
     First,
     /// Nothing will press on the body.
     Free,

@@ -48,7 +48,7 @@ fn weigh_blend<const D: usize>(
     let each = (PerBody(&mut all[..]), PerBody(&mut blend.balances));
     let touched = bodies.iter().any(|&i| contacts.active.touched[i]);
     let outlook = match (iteration, touched) {
-        (1, _) => Outlook::First,
+        (1, false) => Outlook::First,
         (_, false) => Outlook::Free,
         (_, true) => Outlook::Pressed,
     };
