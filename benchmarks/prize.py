@@ -14,7 +14,7 @@ import cylinders
 from runs import Run
 from sections.layout import power, table, told
 
-STEPS = (1e-2, 2e-3, 1e-3, 5e-4, 2.5e-4)  # s
+STEPS = (1e-1, 5e-2, 2.5e-2, 1e-2, 2e-3, 1e-3, 5e-4, 2.5e-4)  # s
 FAST = "bodies.0.velocity=[4.0, -8.0]"
 
 HEADER = (
@@ -51,7 +51,8 @@ def measured() -> str:
     for friction in (0.0, 0.2):
         for step in STEPS:
             name = f"`massless`, Δt = {step:g} s"
-            overrides = (*cylinders.PRIZE, f"analysis.time_step={step}")
+            fields = f"output.fields_every={max(step, 0.05)}"
+            overrides = (*cylinders.PRIZE, f"analysis.time_step={step}", fields)
             run = cylinders.run(friction=friction, condition="massless", overrides=overrides)
             rows.append(row(name, friction, told(f"cylinders, {name}, μ = {friction}", run)))
         run = cylinders.run(

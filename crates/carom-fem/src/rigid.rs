@@ -3,7 +3,6 @@
 use carom_mesh::{Matrix, Vector, nodal, tensor};
 
 use crate::Body;
-use crate::ranks::Summed;
 
 impl<const D: usize> Body<D> {
     /// Centre of mass of the deformed body [m].
@@ -57,10 +56,16 @@ impl<const D: usize> Body<D> {
         nodes.iter().zip(self.nodal_mass()).map(|(x, &m)| inverse * (x - centre) * m).collect()
     }
 
-    /// The moments of the mass at the positions X + `u`, from which forces are made that move the body rigidly.
+    /// The moments of the mass at the positions X + `u`, from which forces are made that move the body rigidly. Writes the positions y from the
+    /// centre [m] to `from_centre`, and M y [kg m] to `arms`.
     #[must_use]
-    pub fn rigid_mass(&self, u: &[Vector<D>], arms: &mut [Vector<D>]) -> RigidMass<D> {
-        RigidMass::new(self, u, arms)
+    pub fn rigid_mass(
+        &self,
+        u: &[Vector<D>],
+        from_centre: &mut [Vector<D>],
+        arms: &mut [Vector<D>],
+    ) -> RigidMass<D> {
+        RigidMass::new(self, u, from_centre, arms)
     }
 
     /// Mean spin [rad/s] about the centre of mass, as (z) in 2D and (x, y, z) in 3D: the inertia tensor's inverse times the
@@ -142,8 +147,8 @@ impl<const D: usize> Body<D> {
         let rotation = if self.is_axisymmetric() || !self.mesh().ties().is_empty() {
             0.0
         } else {
-            let mut arms = vec![Vector::zeros(); v.len()];
-            let rigid = self.rigid_mass(u, &mut arms);
+            let (mut from_centre, mut arms) = (mv, vec![Vector::zeros(); v.len()]);
+            let rigid = self.rigid_mass(u, &mut from_centre, &mut arms);
             let orbit = tensor::cross(&rigid.centre, &momentum);
             let spin: [f64; 3] = std::array::from_fn(|i| angular_momentum[i] - orbit[i]);
             let (_, turn) = rigid.acceleration(&Vector::zeros(), &spin);
@@ -169,29 +174,22 @@ pub struct RigidMass<const D: usize> {
 }
 
 impl<const D: usize> RigidMass<D> {
-    /// At the positions X + `u`; writes M y [kg m] to `arms`.
-    pub(crate) fn new(body: &Body<D>, u: &[Vector<D>], arms: &mut [Vector<D>]) -> Self {
+    /// [`Body::rigid_mass`].
+    fn new(body: &Body<D>, u: &[Vector<D>], from_centre: &mut [Vector<D>], arms: &mut [Vector<D>]) -> Self {
         let centre = body.centre(u);
-        let reference = body.mesh().nodes();
+        for ((y, x), u) in from_centre.iter_mut().zip(body.mesh().nodes()).zip(u) {
+            *y = x + u - centre;
+        }
+        body.multiply_mass(from_centre, arms);
         let mut inertia = Matrix::<3>::zeros();
         let mut polar = 0.0;
-        // M y = M(X + u) − m c, as M is a number for every pair of nodes.
-        for (node, arm) in arms.iter_mut().enumerate() {
-            let mut sum = Vector::zeros();
-            for (entry, neighbour) in body.mass().graph().row(node) {
-                sum += (reference[neighbour] + u[neighbour] - centre) * body.mass().values[entry];
-            }
-            *arm = sum;
-        }
-        body.ranks.sum_up(arms);
-        for (node, sum) in arms.iter().enumerate() {
-            let y = reference[node] + u[node] - centre;
+        for (y, arm) in from_centre.iter().zip(arms.iter()) {
             for i in 0..D {
                 for j in 0..D {
-                    inertia[(i, j)] -= y[i] * sum[j];
+                    inertia[(i, j)] -= y[i] * arm[j];
                 }
             }
-            polar += y.dot(sum);
+            polar += y.dot(arm);
         }
         inertia += Matrix::<3>::identity() * polar;
         Self { centre, mass: body.total_mass(), axial: body.is_axisymmetric(), inertia }

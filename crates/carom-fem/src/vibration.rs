@@ -34,22 +34,22 @@ impl<const D: usize> Vibration<D> {
         }
         body.multiply_mass(velocity, momentum);
         let resultant = body.resultant(nodal::total(momentum));
-        field.copy_from_slice(velocity);
         if held.is_empty() {
-            let rigid = body.rigid_mass(u, arms);
-            let nodes = body.mesh().nodes();
+            // The field holds the positions from the centre first.
+            let rigid = body.rigid_mass(u, field, arms);
             let mut moment = [0.0; 3];
             if body.mesh().ties().is_empty() {
-                for ((x, u), p) in nodes.iter().zip(u).zip(&*momentum) {
-                    let of_node = tensor::cross(&(x + u - rigid.centre), p);
+                for (y, p) in field.iter().zip(&*momentum) {
+                    let of_node = tensor::cross(y, p);
                     (0..3).for_each(|i| moment[i] += of_node[i]);
                 }
             }
             let motion = rigid.acceleration(&resultant, &moment);
-            for ((w, x), u) in field.iter_mut().zip(nodes).zip(u) {
-                *w -= RigidMass::force(&motion, 1.0, &(x + u - rigid.centre));
+            for (w, v) in field.iter_mut().zip(velocity) {
+                *w = v - RigidMass::force(&motion, 1.0, w);
             }
         } else {
+            field.copy_from_slice(velocity);
             let mut drift = resultant / body.total_mass();
             held.iter().for_each(|dof| drift[dof.component as usize] = 0.0);
             field.iter_mut().for_each(|w| *w -= drift);

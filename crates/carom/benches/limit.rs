@@ -111,7 +111,9 @@ fn kernels(body: &Body<2>, dt: f64, conserving: bool) -> (f64, f64) {
 }
 
 fn main() {
-    let scenes: Vec<Scene> = [("theta", "gap"), ("conserving", "midpoint")]
+    let methods =
+        [("theta", "gap"), ("conserving", "gap"), ("conserving", "midpoint"), ("conserving", "massless")];
+    let scenes: Vec<Scene> = methods
         .into_iter()
         .flat_map(|(scheme, condition)| [0.0, 0.2].map(|mu| (scheme, condition, mu)))
         .flat_map(|(scheme, condition, mu)| {

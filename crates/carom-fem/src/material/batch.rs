@@ -46,9 +46,14 @@ impl<const S: usize> Batch<S> {
     /// The matrices at as many points as a register has lanes, from `point` on.
     #[inline(always)]
     pub(super) fn load<V: Simd>(&self, point: usize) -> [[V::f64s; S]; S] {
-        std::array::from_fn(|i| {
-            std::array::from_fn(|j| V::as_simd_f64s(&self.components[i][j][point..]).0[0])
-        })
+        let at = |row: &[f64; BATCH]| V::as_simd_f64s(&row[point..]).0[0];
+        let mut matrices = [[at(&self.components[0][0]); S]; S];
+        for (matrices, rows) in matrices.iter_mut().zip(&self.components) {
+            for (matrix, row) in matrices.iter_mut().zip(rows) {
+                *matrix = at(row);
+            }
+        }
+        matrices
     }
 
     /// Writes the matrices at as many points as a register has lanes, from `point` on.

@@ -328,13 +328,15 @@ impl<L: LaneLaw, const D: usize> WithSimd for DiscreteStresses<'_, L, D> {
         let Self { law, count, ends, out } = self;
         let constants = law.splat(simd);
         for point in (0..count).step_by(V::F64_LANES) {
-            let [f0, f1] = ends.map(|f| f.load::<V>(point));
+            // A closure that a map of arrays calls may not be inlined, and is then not compiled for the registers.
+            let (f0, f1) = (ends[0].load::<V>(point), ends[1].load::<V>(point));
             let (x0, x1) = (Strain::of::<L>(simd, &f0), Strain::of::<L>(simd, &f1));
             let stress = if L::IS_QUADRATIC {
                 L::energy_and_stress(simd, constants, &Strain::mean(simd, &x0, &x1)).1
             } else {
-                let energies = [x0, x1].map(|x| L::energy_and_stress(simd, constants, &x).0);
-                stress_of_step::<V, L, D>(simd, constants, [&x0, &x1], energies)
+                let (w0, _) = L::energy_and_stress(simd, constants, &x0);
+                let (w1, _) = L::energy_and_stress(simd, constants, &x1);
+                stress_of_step::<V, L, D>(simd, constants, [&x0, &x1], [w0, w1])
             };
             out.store::<V>(point, product(simd, &mean(simd, &f0, &f1), &stress));
         }
@@ -356,7 +358,7 @@ impl<L: LaneLaw, const D: usize> WithSimd for StepStresses<'_, L, D> {
         let Self { law, count, ends, out: [discrete, change, end] } = self;
         let constants = law.splat(simd);
         for point in (0..count).step_by(V::F64_LANES) {
-            let [f0, f1] = ends.map(|f| f.load::<V>(point));
+            let (f0, f1) = (ends[0].load::<V>(point), ends[1].load::<V>(point));
             let (x0, x1) = (Strain::of::<L>(simd, &f0), Strain::of::<L>(simd, &f1));
             let (w0, s0) = L::energy_and_stress(simd, constants, &x0);
             let (w1, s1) = L::energy_and_stress(simd, constants, &x1);

@@ -55,6 +55,9 @@ fn disc(name: &str, centre: [f64; 2], velocity: [f64; 2]) -> Value {
 fn discs(method: &Method<'_>, end_time: f64, room: [f64; 2], bodies: Value) -> Scenario {
     let Method { scheme, condition, friction, solver } = *method;
     let plane = |name: &str, point: [f64; 2], normal: [f64; 2]| json!({"name": name, "kind": "plane", "point": point, "normal": normal});
+    // Without mass the surfaces are what a case has by default; the others are as other codes have them.
+    let (sources, targets) =
+        if condition == "massless" { (None, "smooth") } else { (Some("first"), "faceted") };
     let scheme = match scheme {
         "theta" => json!({"kind": "theta", "theta": 0.5, "xi": 0.5}),
         other => json!({"kind": other}),
@@ -75,7 +78,7 @@ fn discs(method: &Method<'_>, end_time: f64, room: [f64; 2], bodies: Value) -> S
             plane("ceiling", [0.0, room[1]], [0.0, -1.0]), plane("west", [0.0, 0.0], [1.0, 0.0]),
         ],
         "contact": {
-            "condition": condition, "friction": friction, "sources": "first", "certificate_tolerance": 1e-9, "penetration_tolerance": 0.01, "targets": "faceted",
+            "condition": condition, "friction": friction, "sources": sources, "certificate_tolerance": 1e-9, "penetration_tolerance": 0.01, "targets": targets,
             "solver": {"kind": solver, "tolerance": 1e-12, "max_iterations": 10000},
         },
     }))

@@ -156,6 +156,17 @@ pub struct Balance {
     pub onset: f64,
 }
 
+/// What is known of the boundary at the end of a step when its balance is asked for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Outlook {
+    /// The guess is the first one, far from any balance: none is wanted, nor the forces that give back momenta.
+    First,
+    /// Nothing will press on the body.
+    Free,
+    /// What will press is what the guess says.
+    Pressed,
+}
+
 /// A place in which something of a body is.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Ball<const D: usize> {
@@ -265,7 +276,7 @@ pub trait Body<const D: usize>: Send + Sync {
     ) -> Result<Forecast, StepError>;
 
     /// The balance of energy at a guess, of steps that [are blended](Interval::is_blended).
-    fn balance(&mut self, _guess: &Guess<'_, D>) -> Balance {
+    fn balance(&mut self, _guess: &Guess<'_, D>, _outlook: Outlook) -> Balance {
         Balance::default()
     }
 

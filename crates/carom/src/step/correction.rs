@@ -5,6 +5,7 @@ use carom_mesh::nodal;
 use super::newton::Newton;
 use super::newton::control::CONTROL;
 use super::workspace::Workspace;
+use crate::body::Outlook;
 use crate::contact::Contacts;
 use crate::error::StepError;
 use crate::model::each_body::{PerBody, PerNode, each_body, try_each_body};
@@ -45,14 +46,19 @@ fn weigh_blend<const D: usize>(
 ) {
     let Workspace { bodies: all, contacts, blend, motion, .. } = work;
     let each = (PerBody(&mut all[..]), PerBody(&mut blend.balances));
+    let touched = bodies.iter().any(|&i| contacts.active.touched[i]);
+    let outlook = match (iteration, touched) {
+        (1, _) => Outlook::First,
+        (_, false) => Outlook::Free,
+        (_, true) => Outlook::Pressed,
+    };
     each_body(given.assembly, bodies, each, &|i, (body, balance)| {
-        *balance.own() = body.own().balance(&given.guess(i, motion, &next.displacement));
+        *balance.own() = body.own().balance(&given.guess(i, motion, &next.displacement), outlook);
     });
     contacts.on_masses.weigh(bodies, given, motion, all.as_slice(), &mut blend.balances);
     if iteration > CONTROL.weighed {
         return blend.keep(bodies);
     }
-    let touched = bodies.iter().any(|&i| contacts.active.touched[i]);
     let contact_work = if touched { contacts.measure_work(given, motion) } else { &[] };
     blend.weigh(bodies, contact_work, &given.state.energy_debt, given.state.energies.total());
     if iteration == 1 {

@@ -4,7 +4,7 @@ use carom_fem::{RigidMass, StepForces};
 use carom_mesh::{Vector, tensor};
 
 use super::equation::{Equation, ResidualScratch, steadied};
-use crate::body::Balance;
+use crate::body::{Balance, Outlook};
 
 /// The forces of a step that is blended, node by node [N]; empty until one is.
 #[derive(Debug, Default)]
@@ -16,29 +16,39 @@ pub(crate) struct BlendedForces<const D: usize> {
     /// f₁.
     pub end: Vec<Vector<D>>,
     middle: Vec<Vector<D>>,
+    from_centre: Vec<Vector<D>>,
     arms: Vec<Vector<D>>,
 }
 
 impl<const D: usize> BlendedForces<D> {
-    /// Forces and balance at a guess.
-    pub fn measure(&mut self, equation: &Equation<'_, D>, scratch: &mut ResidualScratch<D>) -> Balance {
+    /// Forces and balance at a guess. Where nothing will press on the boundary, what is open there will be gone at the next guess: the balance is that of it,
+    /// up to what is small of second order, and α is found one iteration earlier.
+    pub fn measure(
+        &mut self,
+        equation: &Equation<'_, D>,
+        outlook: Outlook,
+        scratch: &mut ResidualScratch<D>,
+    ) -> Balance {
         let nodes = equation.motion.len();
-        let Self { conserving, difference, end, middle, arms } = self;
-        for forces in [conserving, difference, end, middle, arms] {
+        let Self { conserving, difference, end, middle, from_centre, arms } = self;
+        for forces in [conserving, difference, end, middle, from_centre, arms] {
             forces.resize(nodes, Vector::zeros());
         }
         let body = equation.body;
-        let Self { conserving, difference, end, middle, arms } = self;
+        let Self { conserving, difference, end, middle, from_centre, arms } = self;
         equation.with_history.step_forces(
             equation.start,
             equation.displacement,
             &mut StepForces { conserving, difference, end },
         );
         let viscous = equation.viscous_force(scratch);
+        if outlook == Outlook::First {
+            return Balance::default();
+        }
         for ((m, u), d) in middle.iter_mut().zip(equation.start).zip(equation.motion) {
             *m = u + d * 0.5;
         }
-        let rigid = body.rigid_mass(middle, arms);
+        let rigid = body.rigid_mass(middle, from_centre, arms);
         let mut balance = Balance::default();
         // What the forces of the boundary have more than the reactions (½ ∓ α) of start and end: resultants and moments.
         let (mut excess, mut excess_moment) = ([Vector::zeros(); 2], [[0.0; 3]; 2]);
@@ -55,6 +65,11 @@ impl<const D: usize> BlendedForces<D> {
             let inner = [conserving[n] + viscous[n] - equation.mean_load(n), difference[n]]
                 .map(|f| held.free_part(n, &f));
             balance.missing += inner[0].dot(&d);
+            if outlook == Outlook::Free {
+                let open = p1.dot(&d);
+                balance.missing -= 0.5 * open;
+                balance.available += open;
+            }
             let outer = [[p0 * 0.5, p1 * 0.5], [-p0, p1]];
             for k in 0..2 {
                 excess[k] += inner[k] - outer[k][0] - outer[k][1];

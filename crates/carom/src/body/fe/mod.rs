@@ -24,7 +24,9 @@ use self::drive::Drive;
 use self::equation::{Equation, Pose, ResidualScratch, STRAIGHT};
 use self::iteration_matrix::IterationMatrix;
 use self::part::ModelBody;
-use super::{Balance, Body, BodyEnd, BodyState, Forecast, Guess, Interval, Jolt, SoftestMotion, Tangent};
+use super::{
+    Balance, Body, BodyEnd, BodyState, Forecast, Guess, Interval, Jolt, Outlook, SoftestMotion, Tangent,
+};
 use crate::Signal;
 use crate::archive::{Archive, CheckpointError};
 use crate::error::StepError;
@@ -226,10 +228,10 @@ impl<const D: usize> Body<D> for FeBody<D> {
         Ok(Forecast { speed, acceleration: self.part.gravity.norm(), driven, is_factorised })
     }
 
-    fn balance(&mut self, guess: &Guess<'_, D>) -> Balance {
+    fn balance(&mut self, guess: &Guess<'_, D>, outlook: Outlook) -> Balance {
         self.drive.load(&self.part, guess);
         let equation = Equation::new(&self.part, guess, &self.pose, &self.drive);
-        self.blended.measure(&equation, &mut self.scratch)
+        self.blended.measure(&equation, outlook, &mut self.scratch)
     }
 
     fn residual(&mut self, guess: &Guess<'_, D>, blend: Option<f64>, out: &mut [Vector<D>]) {
@@ -391,7 +393,7 @@ impl<const D: usize> Body<D> for FeBody<D> {
         let [_, grown] = part.growth_of(guess.interval);
         let mut elastic = None;
         let exchanged = blend.map(|weight| {
-            let Balance { missing, available, .. } = blended.measure(&equation, scratch);
+            let Balance { missing, available, .. } = blended.measure(&equation, Outlook::Pressed, scratch);
             end.internal_force.copy_from_slice(&blended.end);
             missing - weight * available + end.spring_work
         });

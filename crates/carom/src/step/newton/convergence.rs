@@ -38,6 +38,8 @@ pub(crate) struct Convergence {
     safety: f64,
     /// Whether bodies become others in the step.
     is_changing: bool,
+    /// Whether its first iteration lacks the blend, and leaves momenta open: it ends nothing but what does not move at all.
+    is_blended: bool,
     max_iterations: usize,
     /// Relative to the motion in the step.
     tolerance: f64,
@@ -73,6 +75,7 @@ impl Convergence {
         Self {
             safety: if lags { f64::INFINITY } else { safety },
             is_changing,
+            is_blended: interval.is_blended,
             max_iterations: method.newton.max_iterations,
             tolerance: method.newton.tolerance,
             round_off: assembly.round_off(),
@@ -98,7 +101,8 @@ impl Convergence {
         let motion = progress().map(|p| p.motion).fold(0.0, f64::max);
         let correction = progress().map(|p| p.correction).fold(0.0, f64::max);
         self.check_reach(iteration, motion, correction)?;
-        if progress().all(|p| self.has_converged(p, motion)) {
+        let is_whole = !(self.is_blended && iteration == 1) || correction <= self.round_off;
+        if is_whole && progress().all(|p| self.has_converged(p, motion)) {
             return Ok(true);
         }
         let hopeless = self.stalls(correction);
@@ -209,6 +213,7 @@ mod tests {
     const DYNAMIC: Convergence = Convergence {
         safety: CONTROL.safety,
         is_changing: false,
+        is_blended: false,
         max_iterations: 100,
         tolerance: 1e-10,
         round_off: 0.0,
