@@ -174,6 +174,36 @@ def glued(dimension, divisions, *, analysis, material, velocity=None, **other):
     )
 
 
+def glued_beam(*, discretisation, loads_end, thickness=0.05):
+    """A clamped beam of 1 m of two pieces of other cells, glued, under a force at its end."""
+    bodies = [
+        carom.Body(
+            name=f"piece-{number}",
+            material="soft",
+            hypothesis="plane-stress",
+            mesh=carom.Rectangle(
+                corner=[0.5 * number, 0.0],
+                size=[0.5, thickness],
+                divisions=[10, 2 + number],
+                cell="quad9",
+            ),
+        )
+        for number in range(2)
+    ]
+    names = [body.name for body in bodies]
+    return carom.Scenario(
+        analysis=carom.Static(end_time=1.0, time_step=0.5),
+        materials={"soft": carom.LinearElastic(young=1e6, poisson=0.0, density=1e3)},
+        bodies=bodies,
+        motions=[carom.Fixed(body=names[0], on="left")],
+        loads=[carom.Traction(body=names[-1], on="right", traction=[0.0, f"{loads_end:g}*t"])],
+        contact=carom.Contact(
+            pairs=[carom.Pair(between=names, cohesion=GLUED, discretisation=discretisation)]
+        ),
+        output=carom.Output(track=[carom.Track(name="tip", body=names[-1], point=[1.0, 0.0])]),
+    )
+
+
 UNLIKE = {2: ([5, 2], [4, 3]), 3: ([4, 3, 2], [3, 2, 2])}
 """Cells of two blocks that do not match."""
 

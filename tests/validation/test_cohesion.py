@@ -8,6 +8,7 @@ from cohesive import (
     UNLIKE,
     area,
     bouncing,
+    glued_beam,
     hanging,
     on_an_incline,
     patch,
@@ -121,6 +122,21 @@ def test_a_bond_of_unlike_meshes_passes_the_patch_test(tmp_path, dimension, kind
     result = run(tmp_path, patch(dimension, kind))
     assert result.summary["status"] == "completed"
     assert patch_error(result, dimension, kind) < 1e-10
+
+
+@pytest.mark.parametrize("discretisation", ["mortar", "node-to-segment"])
+def test_a_beam_of_glued_pieces_bends_as_one(tmp_path, discretisation):
+    """By F L³/3EI + 6 F L/5GA. Symptom guarded against: what holds loose bodies back in load steps
+    is stiffer than a slender beam, whose iterations did not end.
+    """
+    thickness, traction, young = 0.05, 1e-3, 1e6
+    case = glued_beam(discretisation=discretisation, loads_end=traction)
+    result = run(tmp_path, case)
+    inertia = thickness**3 / 12
+    bent = traction * thickness / (3 * young * inertia) + 6 / 5 * traction / (young / 2)
+    assert result.summary["status"] == "completed"
+    assert result.history["tip.u_y"][-1] == pytest.approx(bent, rel=2e-3)
+    assert result.summary["newton_iterations"] <= 40
 
 
 @pytest.mark.parametrize("dimension", [2, 3])

@@ -41,8 +41,8 @@ def test_a_stiff_wedge_under_a_weight_takes_what_rigid_bodies_do(discretisation)
 
 def test_a_block_that_a_wedge_holds_is_not_said_not_to_be_held():
     """Symptom guarded against: an iteration that left it in the air was the last one allowed."""
-    with pytest.raises(carom.ConvergenceError, match=r"Newton's iterations stopped after 50"):
-        wedges.wedge_under_a_weight("node-to-segment", 1e10, max_iterations=50)
+    with pytest.raises(carom.ConvergenceError, match=r"Newton's iterations stopped after 10"):
+        wedges.wedge_under_a_weight("node-to-segment", 1e10, max_iterations=10)
 
 
 def test_a_bar_on_a_rough_bed_takes_the_same_in_every_cycle():

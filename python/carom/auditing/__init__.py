@@ -76,6 +76,11 @@ def _check(files: Files, findings: Findings) -> None:
         frames.append(frame.time)
     for own in scales:
         own.share(scales)
+    certified = sum(float(part.rows.certified.sum()) for part in parts)
+    reference = files.summary["certificate"].get("reference_joule", 0.0)
+    force = float(files.history["normal_force"].max())
+    for own in scales:
+        own.certify(certified, reference, force)
     check_files(files.path, files.summary, findings)
     check_mesh(models[0], findings)
     check_materials(models[0], files.materials(), findings)

@@ -68,3 +68,35 @@ def test_a_node_that_leaves_its_body_is_found(tmp_path):
         file["VTKHDF/PointData/displacement"][-3, 0] += 1e-6
     refuted = {check.name for check in carom.audit(tmp_path / "changed").refuted}
     assert "rigid motion" in refuted
+
+
+@pytest.mark.parametrize("law", [0.3, carom.StaticKinetic(static=0.5, kinetic=0.2, distance=0.02)])
+def test_a_rigid_block_that_a_spring_pulls_in_load_steps_is_confirmed(tmp_path, law):
+    """It sticks, then slips at μ N. Symptom guarded against: what the solver leaves of a contact
+    problem whose reactions prevent motions of 10 m was refuted as friction that gives energy back.
+    """
+    load, stiffness = 2000.0, 2e4
+    block = carom.RigidBody(
+        name="block",
+        density=1000.0,
+        mesh=carom.Rectangle(corner=[0.0, 0.0], size=[1.0, 0.2], divisions=[4, 2]),
+    )
+    hook = carom.RigidSphere(
+        name="hook", centre=[3.0, 0.1], radius=0.01, motion=carom.Displacement(x="0.1*t")
+    )
+    ends = (
+        carom.Place(body="block", point=[1.0, 0.1]),
+        carom.Place(obstacle="hook", point=[3, 0.1]),
+    )
+    scenario = carom.Scenario(
+        analysis=carom.Static(end_time=1.0, time_step=0.05),
+        bodies=[block],
+        obstacles=[carom.Plane(name="floor", point=[0.0, 0.0], normal=[0.0, 1.0]), hook],
+        springs=[carom.Spring(name="spring", between=ends, stiffness=stiffness)],
+        loads=[carom.Traction(body="block", on="top", traction=[0.0, f"-{load:g}*min(t/0.05, 1)"])],
+        contact=carom.Contact(friction=law),
+    )
+    result = carom.run(scenario, out=tmp_path / "run")
+    slides_at = 0.3 if law == 0.3 else 0.2
+    assert result.history["spring.force"][-1] == pytest.approx(slides_at * load, rel=1e-9)
+    assert carom.audit(tmp_path / "run").refuted == ()

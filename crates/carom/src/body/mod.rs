@@ -101,6 +101,8 @@ pub struct Tangent<'a, const D: usize> {
     /// The share of the inertia of the body's lowest elastic motion that holds corrections back towards the guess, in K̄ alone, where the tangent by
     /// itself has no inverse.
     pub held_back: f64,
+    /// How much is left of what holds a body back that its supports leave loose, from 0 to 1.
+    pub grip: f64,
     /// Springs to the ground [N/m] at some nodes.
     pub springs: &'a [(u32, Matrix<D>)],
     /// How stiff the softest spring of the model is that holds the body [N/m]; zero without.

@@ -109,13 +109,15 @@ impl EventLog {
         self.merge = merge.clone();
     }
 
-    /// Records what pairs, which have these `names`, did in a step from `start` to `end` [s]; `whole` says how a solid moved at its start.
+    /// Records what pairs, which have these `names`, did in a step from `start` to `end` [s]; `whole` says how a solid moved at its start, and
+    /// `arrived` where its centre was at its end [m].
     pub fn record(
         &mut self,
         names: impl Fn([Solid; 2]) -> [String; 2],
         reports: &ByPair<PairReport>,
         [start, end]: [f64; 2],
         whole: impl Fn(Solid) -> Whole,
+        arrived: impl Fn(Solid) -> [f64; 3],
     ) {
         let touch = |between| reports.get(between).is_some_and(|report| report.normal_force > 0.0);
         for (between, last) in self.last.iter() {
@@ -150,7 +152,11 @@ impl EventLog {
                 }
             };
             last.until = end;
-            last.touching.go_on(&report.given);
+            let middle = |solid| {
+                let ends = [whole(solid).centre, arrived(solid)];
+                std::array::from_fn(|i| 0.5 * (ends[0][i] + ends[1][i]))
+            };
+            last.touching.go_on(&report.given, end - start, || between.map(middle));
             self.last.insert(between, last);
             let event = &mut self.events[last.event];
             event.peak_force = event.peak_force.max(report.normal_force);
@@ -189,7 +195,7 @@ mod tests {
             Solid::Body(_) => Whole { velocity: [100.0 * (start - 1.0), 0.0, 0.0], ..Whole::default() },
             Solid::Obstacle(_) => Whole::default(),
         };
-        log.record(names, &[(between, report)].into_iter().collect(), [start, end], whole);
+        log.record(names, &[(between, report)].into_iter().collect(), [start, end], whole, |_| [0.0; 3]);
     }
 
     #[test]

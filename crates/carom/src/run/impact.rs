@@ -63,10 +63,14 @@ impl Whole {
         }
     }
 
-    /// The velocity [m/s] of its point at `place` [m], as if it were rigid.
-    fn velocity_at(&self, place: &Vector<3>) -> Vector<3> {
-        Vector::from(self.velocity)
-            + tensor::rotation_velocity(&self.spin, &(place - Vector::from(self.centre)))
+    /// The velocity [m/s] of its point at this `arm` from its centre [m], as if it were rigid.
+    fn velocity_at(&self, arm: &Vector<3>) -> Vector<3> {
+        Vector::from(self.velocity) + tensor::rotation_velocity(&self.spin, arm)
+    }
+
+    /// Where its centre was half of `dt` [s] before [m].
+    fn earlier(&self, dt: f64) -> Vector<3> {
+        Vector::from(self.centre) - Vector::from(self.velocity) * (0.5 * dt)
     }
 
     /// Its numbers, one after the other.
@@ -85,8 +89,14 @@ pub(crate) struct Touching {
     pub before: [Whole; 2],
     /// The impulses so far, of the normal reactions and of friction, on the first of the two [N s].
     impulses: [[f64; 3]; 2],
-    /// Where reactions acted in the mean in the first step and in the last [m].
-    places: [[f64; 3]; 2],
+    /// Where reactions acted in the mean in the middle of the first step, from the centres of both then [m]. What spins turns the places that
+    /// touch away from there, and these from the start of a step or its end come or go.
+    arms: [[f64; 3]; 2],
+    /// The same of the last step, from the origin [m], and how long that was [s].
+    place: [f64; 3],
+    dt: f64,
+    /// How many steps gave an impulse.
+    steps: f64,
 }
 
 impl Touching {
@@ -95,13 +105,14 @@ impl Touching {
         Self { before, ..Self::default() }
     }
 
-    /// Adds the impulse of a step.
-    pub fn go_on(&mut self, given: &PairImpulse) {
+    /// Adds the impulse of a step that took `dt` [s]; `centres` says where those of both were in the middle of it [m].
+    pub fn go_on(&mut self, given: &PairImpulse, dt: f64, centres: impl FnOnce() -> [[f64; 3]; 2]) {
         let Some(place) = given.place() else { return };
-        if self.impulses == [[0.0; 3]; 2] {
-            self.places[0] = place;
+        if self.steps == 0.0 {
+            self.arms = centres().map(|centre| std::array::from_fn(|i| place[i] - centre[i]));
         }
-        self.places[1] = place;
+        (self.place, self.dt) = (place, dt);
+        self.steps += 1.0;
         for (sum, more) in self.impulses.iter_mut().zip([given.normal, given.friction]) {
             sum.iter_mut().zip(more).for_each(|(sum, more)| *sum += more);
         }
@@ -112,14 +123,16 @@ impl Touching {
     pub fn impact(&self, after: &[Whole; 2], are_one: bool) -> Option<Impact> {
         let before = &self.before;
         let [normal, friction] = self.impulses.map(Vector::<3>::from);
-        let [met, parted] = self.places.map(Vector::<3>::from);
+        let met = self.arms.map(Vector::<3>::from);
+        let place = Vector::<3>::from(self.place);
+        let parted = if self.steps == 1.0 { met } else { after.map(|w| place - w.earlier(self.dt)) };
         let impulse = normal.norm();
         let n = normal.try_normalize(0.0)?;
-        let relative = |of: &[Whole; 2], at: &Vector<3>| of[0].velocity_at(at) - of[1].velocity_at(at);
-        let fastest = |of: &[Whole; 2], at| of.iter().map(|w| w.velocity_at(at).norm()).fold(0.0, f64::max);
-        let speed = fastest(before, &met).max(fastest(after, &parted));
+        let velocities = |of: &[Whole; 2], arms: &[Vector<3>; 2]| [0, 1].map(|i| of[i].velocity_at(&arms[i]));
+        let (came, left) = (velocities(before, &met), velocities(after, &parted));
+        let speed = came.iter().chain(&left).map(Vector::norm).fold(0.0, f64::max);
         let ratio = |after: f64, before: f64| (before > ROUND_OFF * speed).then(|| after / before);
-        let (came, left) = (relative(before, &met), relative(after, &parted));
+        let [came, left] = [came, left].map(|[first, second]| first - second);
         let approach = -came.dot(&n);
         let along = came + n * approach;
         let sliding = along.norm();
@@ -146,13 +159,14 @@ impl Touching {
 
     /// Its numbers, one after the other.
     pub fn numbers_mut(&mut self) -> impl Iterator<Item = &mut f64> {
-        let vectors = self.impulses.iter_mut().chain(&mut self.places).flatten();
-        self.before.iter_mut().flat_map(Whole::numbers_mut).chain(vectors)
+        let Self { before, impulses, arms, place, dt, steps } = self;
+        let vectors = impulses.iter_mut().chain(arms).flatten().chain(place).chain([dt, steps]);
+        before.iter_mut().flat_map(Whole::numbers_mut).chain(vectors)
     }
 }
 
 /// What two solids did to one another from the onset of a contact to its release. Their motion is that of rigid bodies of the same momenta, at
-/// the places where reactions acted at first and at last; n is the direction of the impulse.
+/// the places where reactions acted at first and at last, in the middle of these steps; n is the direction of the impulse.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
 pub struct Impact {
     /// Of the normal reactions [N s].
@@ -231,7 +245,7 @@ mod tests {
         };
         let floor = Whole::default();
         let mut touching = Touching::meeting([came, floor]);
-        touching.go_on(&given);
+        touching.go_on(&given, 0.1, || [came.centre, floor.centre]);
         let impact = touching.impact(&[left, floor], false).expect("has an impulse");
         assert_eq!(
             (impact.impulse, impact.friction_impulse, impact.approach, impact.sliding),
@@ -247,7 +261,7 @@ mod tests {
             PairImpulse { normal: [0.0, 1.0, 0.0], friction: [0.0; 3], moment: [0.0; 3], weight: 1.0 };
         let mut touching = Touching::meeting([Whole::default(); 2]);
         assert_eq!(touching.impact(&[Whole::default(); 2], false), None);
-        touching.go_on(&given);
+        touching.go_on(&given, 0.1, || [[0.0; 3]; 2]);
         let impact = touching.impact(&[Whole::default(); 2], false).expect("has an impulse");
         assert_eq!((impact.restitution, impact.tangential_restitution), (None, None));
     }

@@ -408,7 +408,8 @@ impl<const D: usize> Simulation<D> {
         let outcome = stepper.advance(nominal, |[before, state], report, work| {
             let names = |between| model.assembly.names(between);
             let whole = |solid| Whole::of(model, before, &books.bodies, solid);
-            events.record(names, &work.pair_reports, [previous_time, state.time], whole);
+            let arrived = |solid| Whole::of(model, state, &books.bodies, solid).centre;
+            events.record(names, &work.pair_reports, [previous_time, state.time], whole, arrived);
             for books in [&mut *books, &mut account.books] {
                 let pairs = work.pair_reports.iter().map(|(between, pair)| (between, pair.ledger));
                 books.add(report.ledger, &work.body_ledgers, pairs);

@@ -230,7 +230,8 @@ fn close_contacts<const D: usize>(
     next.friction_energy.copy_from_slice(&state.friction_energy);
     // Load steps have no duration: their forces give no impulse.
     let dt = if interval.is_load_step { 0.0 } else { interval.map.dt };
-    let place = |n: usize| assembly.reference[n] + next.displacement[n];
+    // In the middle of the step: by its end what spins has turned the places that touched away.
+    let place = |n: usize| assembly.reference[n] + (state.displacement[n] + next.displacement[n]) * 0.5;
     let push = |pair: &mut PairReport, k: u32, contact: &Contact<D>, force: &Vector<D>| {
         let pair_of = assembly.contact.pairs.get(k as usize);
         let is_source = pair_of.between()[0] == Solid::Body(pair_of.source);

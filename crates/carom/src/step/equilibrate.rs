@@ -154,6 +154,9 @@ fn approach<const D: usize>(
             load_step.has_other_corrections();
         }
         if verdict == Verdict::Renewed {
+            if load_step.is_held_back(iteration) && work.newton.left_alone.is_empty() {
+                bodies.iter().for_each(|&i| work.newton.holding[i].loosen());
+            }
             if load_step.is_linear(iteration) {
                 work.contacts.reduced.delassus.stiffened.is_geometric = true;
             }
@@ -290,7 +293,13 @@ fn hold<const D: usize>(
 ) -> Result<u64, StepError> {
     for tries in 1.. {
         let (springs, softest_spring) = stiffened.support(number);
-        let tangent = Tangent { held_back: holding.share, springs: &springs, softest_spring, is_first };
+        let tangent = Tangent {
+            held_back: holding.share,
+            grip: holding.grip,
+            springs: &springs,
+            softest_spring,
+            is_first,
+        };
         let made = body.linearise(guess, &tangent);
         if made.is_ok() {
             return Ok(tries);

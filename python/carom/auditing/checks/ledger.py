@@ -159,7 +159,8 @@ class LedgerChecks:
         for name, entry in self._touched.items():
             if rubs:
                 fall = np.maximum(-np.diff(entry["friction"], prepend=0.0), 0.0)
-                self._check("books: friction", fall, ROUND_OFF * self._scales.energy, name)
+                off = ROUND_OFF * self._scales.energy + self._scales.certified
+                self._check("books: friction", fall, off, name)
 
     def _summary_books(self) -> None:
         bodies, pairs = self._summary["bodies"], self._summary["pairs"]

@@ -122,7 +122,8 @@ class RowChecks:
         # reactions of the start negatively, and landing take friction back: then the run says so.
         one_way = not self._model.gives_back
         if one_way or self._summary["least_friction"] >= 0:
-            self._check("row: friction", np.maximum(-np.diff(h["friction"]), 0.0), off)
+            fall = np.maximum(-np.diff(h["friction"]), 0.0)
+            self._check("row: friction", fall, off + self._rows.certified[1:])
         else:
             self._findings.leave("sign of friction: contacts took and gave")
         self._check("row: dampers", np.maximum(-np.diff(h["dampers"]), 0.0), off)

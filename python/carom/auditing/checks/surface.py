@@ -116,7 +116,7 @@ class SurfaceChecks:
         if self._growing:
             last = np.zeros(len(left)) if self._last is None else self._last
             fall = np.maximum(last - left, 0.0)
-            off = ROUND_OFF * self._scales.energy
+            off = ROUND_OFF * self._scales.energy + self._scales.certified
             self._check("surface: friction", fall, off, f"{where}, falls")
         self._last = left
 

@@ -69,6 +69,12 @@ class Rows:
         whole.complete = all(part.complete for part in parts)
         return whole
 
+    @property
+    def certified(self) -> Array:
+        """How far the steps of every row may be from the laws of contact [J], [row_count]."""
+        certified: Array = np.fmax(self.steps, 1.0) * self.history["certificate"]
+        return certified
+
     def __len__(self) -> int:
         return len(self.times)
 

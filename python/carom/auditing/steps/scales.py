@@ -63,6 +63,10 @@ class Scales:
         self.sums = READ if reduced else ROUND_OFF
         """Relative difference of two energies, of the largest one."""
         weight = self.mass * float(np.linalg.norm(model.gravity))
+        self.certified = 0.0
+        """How far all steps together may be from the laws of contact [J], by what the run says."""
+        self.prevented = 0.0
+        """How far reactions keep rigid bodies from moving in a load step [m]."""
         # Where nothing ever moves, round-off of places does work on weights.
         self.energy = EPS * model.size * weight
         """Largest energy of a state [J]."""
@@ -71,6 +75,22 @@ class Scales:
         """Take the largest magnitudes of the stages of a run."""
         for name in ("energy", "speed", "reach", "moved"):
             setattr(self, name, max(getattr(one, name) for one in (self, *others)))
+
+    def certify(self, certified: float, reference: float, force: float) -> None:
+        """Take note of how exactly contact problems were solved.
+
+        Parameters
+        ----------
+        certified
+            Sum of the certificates of all steps [J].
+        reference
+            Largest energy of the run, or work of a step's reactions over what they prevent [J].
+        force
+            Largest sum of normal reactions [N].
+        """
+        self.certified = certified
+        if self._model.static and force > 0 and any(body.rigid for body in self._model.bodies):
+            self.prevented = reference / force
 
     def include(self, displacement: Array, velocity: Array, time: float) -> None:
         """Take a state at a time [s] into account."""
@@ -91,7 +111,10 @@ class Scales:
             # Facets are frozen for a step: a node that slides on may get behind the next one.
             return motion
         floor = FLOOR * self._model.size
-        return SAFETY * max(analysis.newton.tolerance * motion, floor) + self.travel
+        # Rigid bodies have no stiffness: contact problems of load steps are about what their
+        # reactions prevent, which is more than anything moves.
+        solved = self._model.contact.solver.tolerance * self.prevented
+        return SAFETY * max(analysis.newton.tolerance * motion, floor, solved) + self.travel
 
     def strain(self, body: AuditBody, u: Array, time: float) -> float:
         """Return how far the strain energy of a state at a time [s] may be off [J].

@@ -279,9 +279,10 @@ impl<const D: usize> IterationMatrix<D> {
         self.is_loose && !self.inverse.is_large()
     }
 
-    /// What holds corrections of a load step back [1/s²], where this share of the inertia of the lowest motion is to.
-    pub fn inertia(&self, held_back: f64) -> f64 {
-        let share = if self.is_loose { held_back.max(LOOSE) } else { held_back };
+    /// What holds corrections of a load step back [1/s²], where this share of the inertia of the lowest motion is to, and so much is left of what
+    /// holds a loose body.
+    pub fn inertia(&self, held_back: f64, grip: f64) -> f64 {
+        let share = if self.is_loose { held_back.max(LOOSE * grip) } else { held_back };
         share * self.lowest_inertia
     }
 
@@ -294,7 +295,7 @@ impl<const D: usize> IterationMatrix<D> {
         u: &[Vector<D>],
         tangent: &Tangent<'_, D>,
     ) -> Result<(), StepError> {
-        let mut inertia = self.inertia(tangent.held_back);
+        let mut inertia = self.inertia(tangent.held_back, tangent.grip);
         if tangent.held_back == 0.0 && tangent.softest_spring > 0.0 {
             inertia = inertia.min(BESIDE_SPRINGS * tangent.softest_spring / body.total_mass());
         }

@@ -325,8 +325,11 @@ impl<const D: usize> Body<D> for FeBody<D> {
         neutral: &[Vec<Vector<D>>],
     ) -> Option<SoftestMotion<D>> {
         let held_back = softest::held_back(|held_back| {
-            self.linearise(guess, &Tangent { held_back, springs, softest_spring: 0.0, is_first: false })
-                .is_ok()
+            self.linearise(
+                guess,
+                &Tangent { held_back, grip: 1.0, springs, softest_spring: 0.0, is_first: false },
+            )
+            .is_ok()
         })?;
         let softest = softest::find(&mut self.matrix, &self.part.body, held_back, neutral);
         self.forget();

@@ -74,7 +74,7 @@ pub(super) fn find<const D: usize>(
             known.push((field, weighed));
         }
     }
-    let own = matrix.inertia(held_back);
+    let own = matrix.inertia(held_back, 1.0);
     let mut x: Vec<_> = (0..body.node_count()).map(|n| Vector::from_fn(|i, _| sign(n * D + i))).collect();
     let mut y = vec![Vector::zeros(); x.len()];
     let (mut eigenvalue, mut mass) = (f64::INFINITY, 0.0);

@@ -26,7 +26,7 @@ impl<const D: usize> RigidBody<D> {
             _ if external.force.norm() > 0.0 => external.force.norm() / size,
             _ => 1.0,
         };
-        let stiffness = tangent.held_back.max(LEAST) * scale;
+        let stiffness = tangent.held_back.max(LEAST * tangent.grip) * scale;
         let [along, about] = part.free();
         let shift = Vector::<3>::from_fn(|i, _| if along[i] { 1.0 / stiffness } else { 0.0 });
         let turning = Matrix::<3>::from_diagonal_element(stiffness * 0.25 * size * size);

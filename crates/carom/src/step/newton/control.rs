@@ -105,6 +105,8 @@ pub(crate) struct LoadControl {
     pub first: f64,
     /// By how much it changes.
     pub change: f64,
+    /// The least that is left of what holds a loose body, where contacts hold it but what they hold it to gives way: a slender beam, a soft spring.
+    pub loosest: f64,
     /// The share where a free motion is left alone: what it would move in an iteration is small, and its square no gap.
     pub left_alone: f64,
     /// With more of it nothing moves.
@@ -125,6 +127,7 @@ pub(crate) const LOAD_STEP: LoadControl = LoadControl {
     refusals: 8,
     first: 1e-3,
     change: 4.0,
+    loosest: 1e-4,
     left_alone: 1.0,
     largest: 1e4,
 };

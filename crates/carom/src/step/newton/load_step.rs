@@ -119,6 +119,11 @@ impl LoadStep {
         iteration > LOAD_STEP.late && self.contraction > LOAD_STEP.slow
     }
 
+    /// Whether corrections shrink, but so slowly that the most of them is held back.
+    pub fn is_held_back(&self, iteration: usize) -> bool {
+        self.is_linear(iteration) && self.has_stalled() && self.contraction < 1.0
+    }
+
     /// Whether the last correction is the smallest so far by far.
     pub fn is_shrinking(&self) -> bool {
         self.stalled == 0
