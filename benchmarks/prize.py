@@ -51,8 +51,9 @@ def measured() -> str:
     for friction in (0.0, 0.2):
         for step in STEPS:
             name = f"`massless`, Δt = {step:g} s"
+            rows_of_steps = f"output.history_every={step}"
             fields = f"output.fields_every={max(step, 0.05)}"
-            overrides = (*cylinders.PRIZE, f"analysis.time_step={step}", fields)
+            overrides = (*cylinders.PRIZE, f"analysis.time_step={step}", rows_of_steps, fields)
             run = cylinders.run(friction=friction, condition="massless", overrides=overrides)
             rows.append(row(name, friction, told(f"cylinders, {name}, μ = {friction}", run)))
         run = cylinders.run(

@@ -38,7 +38,9 @@ not.
 
 {scenes}
 
-Not completed: {failures}.
+Not completed:
+
+{failures}
 
 {compared}
 """
@@ -63,6 +65,6 @@ def random_scenes_section() -> str:
     return RANDOM_SCENES.format(
         count=SCENES,
         scenes=random_scenes.tabulated(tallies),
-        failures="; ".join(failures) or "none",
+        failures="\n".join(f"- {failure}" for failure in failures) or "- none",
         compared=random_scenes.compared(tallies),
     )
