@@ -69,6 +69,8 @@ def _entries(directory: Path) -> set[str]:
         if leads_nowhere(place):
             raise InputError(f"{place}: is a link that leads nowhere; choose another --out")
         if os.path.lexists(place):
+            if place.is_dir():  # which another run has made since
+                break
             raise InputError(f"{place}: is a file; choose another --out")
         place = place.parent
     if not os.access(place, os.R_OK | os.W_OK | os.X_OK):

@@ -7,12 +7,14 @@ import os
 import signal
 import threading
 import time
+from pathlib import Path
 
 import pytest
 
 import carom
 from carom import InputError, StorageError
 from carom.io.claim import claimed
+from carom.system.existing import entries
 from restarting import scenario, started
 
 
@@ -56,6 +58,16 @@ def test_of_two_runs_that_start_at_the_same_instant_one_is_refused(tmp_path, for
     assert result.scenario.contact.friction == winner
     assert (result.history["friction"][-1] > 0.0) == (winner > 0.0)
     assert not list(out.glob("*.lock"))
+
+
+# Symptom guarded against: the one that was refused was told that the directory "is a file".
+def test_a_directory_that_another_run_makes_meanwhile_is_no_file(tmp_path, monkeypatch):
+    def made_by_another(path):
+        Path(path).mkdir()
+        return True
+
+    monkeypatch.setattr(os.path, "lexists", made_by_another)
+    assert entries(tmp_path / "out") == set()
 
 
 def test_two_threads_of_one_program_do_not_share_a_directory_either(tmp_path):
