@@ -33,8 +33,8 @@ RANDOM_SCENES = """\
 ## Random scenes
 
 `python benchmarks/random_scenes.py {count}`: 2 to 5 bodies thrown into a box, 800 steps each;
-defects over the initial energy, which parts of halved steps leave to one another and whole steps do
-not.
+defects over the initial energy. The *largest* counts what parts of halved steps leave to one
+another.
 
 {scenes}
 

@@ -46,6 +46,7 @@ impl Holding {
         let share = self.share / LOAD_STEP.change;
         self.share = if share < LOAD_STEP.first { self.least } else { share.max(self.least) };
     }
+
     /// Less of what holds a loose body.
     pub fn loosen(&mut self) {
         self.grip = (self.grip / LOAD_STEP.change).max(LOAD_STEP.loosest);
