@@ -99,7 +99,7 @@ impl<const D: usize> Delassus<D> {
                 } else if stiffened {
                     let mut block = stiffened_block(tangent, row, &contacts[j]);
                     if leaves_out {
-                        block.set_row(0, &(block.row(0) + tangent.unseen_block(i, &contacts[j]).transpose()));
+                        block += tangent.unseen_block(i, &contacts[j]);
                     }
                     Some(block)
                 } else {
@@ -117,7 +117,7 @@ impl<const D: usize> Delassus<D> {
                 let mut q = contact.relative(|n| motion[n]);
                 q += offsets[i];
                 if leaves_out {
-                    q[0] += tangent.unseen(i);
+                    q += tangent.unseen(i);
                 }
                 problem.q.push(q);
                 let partners = row.partners.iter().map(|&j| j as usize).zip(&row.blocks);

@@ -11,8 +11,8 @@ mod control;
 mod coupling;
 pub(crate) mod cross_check;
 pub(crate) mod delassus;
+mod gradients;
 mod islands;
-mod left_out;
 pub(crate) mod on_masses;
 mod pressing;
 pub(crate) mod reduced;
@@ -35,6 +35,7 @@ use self::islands::Islands;
 use self::on_masses::OnMasses;
 use self::reduced::Reduced;
 use self::slip::Slip;
+use self::stiffened::OfReactions;
 use crate::body::Body;
 use crate::error::StepError;
 use crate::model::assembly::Assembly;
@@ -154,7 +155,7 @@ impl<const D: usize> Contacts<D> {
 
     /// Whether reactions have their stiffness in the tangent.
     pub fn is_stiffened(&self) -> bool {
-        self.reduced.delassus.stiffened.is_geometric
+        self.reduced.delassus.stiffened.of_reactions != OfReactions::None
     }
 
     /// Whether `bodies` that touch may give way together: springs of contacts have made a tangent definite. Of many contacts this is not asked.
@@ -165,9 +166,11 @@ impl<const D: usize> Contacts<D> {
 
     /// From now on they have, in the rest of the step, unless they are so many that it costs more than it saves. Returns whether they have.
     pub fn take_stiffness_of_reactions(&mut self) -> bool {
-        let stiffened = &mut self.reduced.delassus.stiffened;
-        stiffened.is_geometric = self.active.contacts.len() <= CONTROL.stiffened;
-        stiffened.is_geometric
+        let is_worth_it = self.active.contacts.len() <= CONTROL.stiffened;
+        if is_worth_it {
+            self.reduced.delassus.stiffened.of_reactions = OfReactions::Symmetric;
+        }
+        is_worth_it
     }
 
     /// From now on they have none, and `bodies` no springs.

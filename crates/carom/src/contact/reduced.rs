@@ -10,6 +10,7 @@ use super::active::ActiveSet;
 use super::control::CONTROL;
 use super::delassus::Delassus;
 use super::sliding::Posed;
+use super::stiffened::OfReactions;
 use crate::body::Body;
 use crate::error::StepError;
 use crate::model::assembly::Assembly;
@@ -216,7 +217,7 @@ impl<const D: usize> Reduced<D> {
         }
         self.give(assembly, active, bodies);
         // With the stiffness of reactions W may be indefinite, and has no natural stiffness by which reactions were motions.
-        let size = if self.delassus.stiffened.is_geometric { motions } else { size };
+        let size = if self.delassus.stiffened.of_reactions == OfReactions::None { size } else { motions };
         Ok(method.stopping.tolerance * size)
     }
 

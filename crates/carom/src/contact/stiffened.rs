@@ -13,7 +13,7 @@
 //! Springs and dampers between bodies are in Ĝ too, in every step, and their nodes in P: bodies that they connect are solved for together, however stiff
 //! they are.
 //!
-//! The gaps of mortar rows change by more than the rows say (`left_out.rs`), which the reduced problem takes note of as well.
+//! Contacts change by more than their rows say (`gradients.rs`), which the reduced problem may take note of as well.
 
 use carom_contact::Contact;
 use carom_mesh::{Matrix, Vector};
@@ -21,7 +21,7 @@ use carom_mesh::{Matrix, Vector};
 use super::active::ActiveSet;
 use super::compliance::Compliance;
 use super::control::CONTROL;
-use super::left_out::{LeftOut, NONE};
+use super::gradients::{Gradients, NONE};
 use super::second_order;
 use super::woodbury::Woodbury;
 use crate::body::Body;
@@ -31,6 +31,17 @@ use crate::model::state::State;
 
 /// Springs to the ground in K̄ of a body [N/m], by its own nodes, ascending.
 pub(crate) type Springs<const D: usize> = Vec<(u32, Matrix<D>)>;
+
+/// What a tangent has of the stiffness of reactions.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum OfReactions {
+    /// Nothing: elastic bodies that pressure takes little of converge without.
+    None,
+    /// What makes no W unsymmetric but that of mortar rows.
+    Symmetric,
+    /// All of it, and rows know how their contacts turn: iterations are those of Newton.
+    Whole,
+}
 
 /// The tangents of the contacts of a load step.
 #[derive(Debug)]
@@ -43,8 +54,8 @@ pub(crate) struct Stiffened<const D: usize> {
     of_model: Vec<Springs<D>>,
     /// So many times as stiff are those of a body as the springs of its contacts.
     times: Vec<f64>,
-    /// Whether reactions have their stiffness even where no body has springs.
-    pub is_geometric: bool,
+    /// What reactions have of their stiffness where no body has springs.
+    pub of_reactions: OfReactions,
     /// κ of every contact [N/m], and in how many directions; zero where it does not press.
     springs_of_contacts: Vec<(f64, usize)>,
     /// P, and the place of every position of the model in it.
@@ -55,7 +66,7 @@ pub(crate) struct Stiffened<const D: usize> {
     /// What the correction is at P without new reactions [m].
     seen: Vec<f64>,
     /// What mortar rows leave out of the gradients of their gaps.
-    left_out: LeftOut<D>,
+    left_out: Gradients<D>,
 }
 
 /// κ of a contact, by the stiffness of its softest node in the undeformed body.
@@ -146,13 +157,13 @@ impl<const D: usize> Stiffened<D> {
             is_sprung: vec![false; assembly.body_count()],
             of_model: vec![Vec::new(); assembly.body_count()],
             times: vec![1.0; assembly.body_count()],
-            is_geometric: false,
+            of_reactions: OfReactions::None,
             springs_of_contacts: Vec::new(),
             nodes: Vec::new(),
             places: vec![NONE; assembly.reference.len()],
             missing: Woodbury::default(),
             seen: Vec::new(),
-            left_out: LeftOut::default(),
+            left_out: Gradients::default(),
         }
     }
 
@@ -166,7 +177,7 @@ impl<const D: usize> Stiffened<D> {
         self.missing.clear();
         self.left_out.clear();
         self.let_go(bodies);
-        self.is_geometric = false;
+        self.of_reactions = OfReactions::None;
     }
 
     /// Takes the springs of the tangents from the contacts that press: those that a step starts with.
@@ -282,8 +293,8 @@ impl<const D: usize> Stiffened<D> {
         motion: &[Vector<D>],
         compliances: &[Compliance<D>],
     ) {
-        let of_contacts =
-            self.is_geometric || self.springs_of_contacts.iter().any(|&(stiffness, _)| stiffness != 0.0);
+        let of_contacts = self.of_reactions != OfReactions::None
+            || self.springs_of_contacts.iter().any(|&(stiffness, _)| stiffness != 0.0);
         if !of_contacts && given.assembly.springs.is_empty() {
             // Elastic bodies that pressure takes little of converge without, and a round one that turns in another has nothing against it.
             self.missing.clear();
@@ -294,8 +305,8 @@ impl<const D: usize> Stiffened<D> {
         self.missing.clear();
         self.left_out.clear();
         if of_contacts {
-            self.add_geometric(given, active, motion);
-            self.left_out.make(given, active, motion, &self.places, &mut self.missing);
+            let of = (self.places.as_slice(), self.of_reactions == OfReactions::Whole);
+            self.left_out.make(given, active, motion, of, &mut self.missing);
         }
         self.add_springs(given.assembly, active);
         self.add_springs_of_model(given, motion);
@@ -326,52 +337,6 @@ impl<const D: usize> Stiffened<D> {
     /// The place of a node in P.
     fn place(&self, node: usize) -> Option<usize> {
         Some(self.places[node]).filter(|&place| place != NONE).map(|place| place as usize)
-    }
-
-    /// G: how the forces of the reactions change as nodes move, by central differences of what the search makes of their places.
-    fn add_geometric(&mut self, given: &Given<'_, D>, active: &ActiveSet<D>, motion: &[Vector<D>]) {
-        let contact_model = &given.assembly.contact;
-        let mut force = vec![Vector::<D>::zeros(); motion.len()];
-        let contacts = active.candidates.iter().zip(&active.contacts).zip(active.all_acting());
-        for (k, ((candidate, contact), r)) in contacts.enumerate() {
-            let is_fixed = active.at_kink.get(k).is_some_and(|at_kink| *at_kink);
-            if is_fixed
-                || active.is_bond(k)
-                || r == Vector::<D>::zeros()
-                || contact_model.is_mortar(candidate.pair as usize)
-            {
-                continue;
-            }
-            let weight = active.conditions[k].evaluation_weight();
-            let step = CONTROL.difference
-                * given.assembly.pair_size(&contact_model.pairs.get(candidate.pair as usize));
-            for (node, _) in contact.stencil() {
-                let Some(column) = self.place(node) else { continue };
-                for component in 0..D {
-                    for sign in [1.0, -1.0] {
-                        let position = |n: u32| {
-                            let mut x = given.position(n) + motion[n as usize] * weight;
-                            if n as usize == node {
-                                x[component] += sign * step;
-                            }
-                            x
-                        };
-                        let mut moved = contact_model.evaluate(candidate, &position);
-                        moved.carry_frame(&contact.frame);
-                        moved.add_force(&(r * (-sign / (2.0 * step))), &mut force);
-                        for (n, _) in moved.stencil() {
-                            let change = std::mem::replace(&mut force[n], Vector::zeros());
-                            let Some(row) = self.place(n) else { continue };
-                            let mut block = Matrix::<D>::zeros();
-                            block.set_column(component, &(change * (0.5 * weight)));
-                            // Friction makes it unsymmetric, of which a solver of contacts knows nothing.
-                            self.missing.add((row, column), block);
-                            self.missing.add((column, row), block.transpose());
-                        }
-                    }
-                }
-            }
-        }
     }
 
     /// Hᵀκ H − B.
@@ -438,25 +403,24 @@ impl<const D: usize> Stiffened<D> {
         self.is_needed() && self.left_out.is_some()
     }
 
-    /// What the row of contact `i` leaves out of the change of its gap [m] that the correction without new reactions makes.
-    pub fn unseen(&self, i: usize) -> f64 {
-        let of_place = |(place, part): &(u32, Vector<D>)| {
-            let correction = &self.seen[*place as usize * D..][..D];
-            part.iter().zip(correction).map(|(p, c)| p * c).sum::<f64>()
+    /// What the row of contact `i` leaves out of the change of what rules it [m] that the correction without new reactions makes.
+    pub fn unseen(&self, i: usize) -> Vector<D> {
+        let of_place = |(place, part): &(u32, Matrix<D>)| {
+            part * Vector::from_column_slice(&self.seen[*place as usize * D..][..D])
         };
         self.left_out.of(i).iter().map(of_place).sum()
     }
 
-    /// What it leaves out of its row of the block of W with another contact.
-    pub fn unseen_block(&self, i: usize, other: &Contact<D>) -> Vector<D> {
-        let mut sum = Vector::zeros();
+    /// What it leaves out of its block of W with another contact.
+    pub fn unseen_block(&self, i: usize, other: &Contact<D>) -> Matrix<D> {
+        let mut sum = Matrix::zeros();
         for (place, part) in self.left_out.of(i) {
             for (m, weight) in other.stencil() {
                 let Some(column) = self.place(m) else { continue };
-                sum += self.missing.block(*place as usize, column).tr_mul(part) * weight;
+                sum += part * self.missing.block(*place as usize, column) * weight;
             }
         }
-        other.frame * sum
+        sum * other.frame.transpose()
     }
 
     /// Makes what K̄⁻¹ alone gives at P, beside the `motion` so far [m], what the tangent gives.

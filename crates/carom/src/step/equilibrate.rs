@@ -12,7 +12,7 @@ use super::stability::{self, about_to_give_way, is_in_question};
 use super::workspace::Workspace;
 use crate::body::{Body, Guess, Tangent};
 use crate::contact::Contacts;
-use crate::contact::stiffened::Stiffened;
+use crate::contact::stiffened::{OfReactions, Stiffened};
 use crate::error::StepError;
 use crate::model::given::Given;
 use crate::model::state::State;
@@ -104,7 +104,10 @@ fn approach<const D: usize>(
     work.newton.left_alone.clear();
     for iteration in 1.. {
         let late = (iteration > LOAD_STEP.late).then_some(load_step.last);
-        let solved = solve(bodies, late, given, next, work);
+        let moved = bodies.iter().map(|&i| nodal::largest(&work.motion[given.assembly.nodes(i)]));
+        let motion = moved.fold(0.0, f64::max);
+        let error = load_step.contact_error(motion);
+        let solved = solve(bodies, (late, error), given, next, work);
         let (correction, left, reason) = match solved {
             Ok(left) => {
                 work.newton.leave_out();
@@ -115,8 +118,6 @@ fn approach<const D: usize>(
             }
             Err(reason) => return Err(reason),
         };
-        let moved = bodies.iter().map(|&i| nodal::largest(&work.motion[given.assembly.nodes(i)]));
-        let motion = moved.fold(0.0, f64::max);
         let verdict =
             load_step.judge(iteration, correction, motion, left.max(round_off(bodies, given, work)));
         let is_unsolvable = matches!(reason, Some(StepError::Friction { .. }));
@@ -124,7 +125,7 @@ fn approach<const D: usize>(
         if verdict == Verdict::Refused {
             if is_unsolvable {
                 // With the stiffness of reactions a compliance may be indefinite.
-                work.contacts.reduced.delassus.stiffened.is_geometric = false;
+                work.contacts.reduced.delassus.stiffened.of_reactions = OfReactions::None;
             }
             work.newton.return_to_guess(bodies, given.assembly, &mut work.motion, &mut work.contacts.active);
             follow(bodies, given, next, work);
@@ -158,7 +159,7 @@ fn approach<const D: usize>(
                 bodies.iter().for_each(|&i| work.newton.holding[i].loosen());
             }
             if load_step.is_linear(iteration) {
-                work.contacts.reduced.delassus.stiffened.is_geometric = true;
+                work.contacts.reduced.delassus.stiffened.of_reactions = OfReactions::Whole;
             }
             if load_step.is_shrinking() {
                 bodies.iter().for_each(|&i| work.newton.holding[i].lower());
@@ -169,11 +170,11 @@ fn approach<const D: usize>(
     unreachable!("the loop ends at max_iterations")
 }
 
-/// Solves for a correction at the present guess, and for the reactions there; `late` in the iterations the last correction [m] is known. Returns what
-/// the tolerance of the contact problem leaves of motions [m].
+/// Solves for a correction at the present guess, and for the reactions there; `late` in the iterations the last correction [m] is known, and how far off contacts
+/// may be. Returns what the tolerance of the contact problem leaves of motions [m].
 fn solve<const D: usize>(
     bodies: &[usize],
-    late: Option<f64>,
+    (late, error): (Option<f64>, f64),
     given: &Given<'_, D>,
     next: &mut State<D>,
     work: &mut Workspace<D>,
@@ -194,7 +195,7 @@ fn solve<const D: usize>(
     begin_solves(bodies, given, reacts, work);
     let mut left = 0.0;
     if reacts {
-        left = work.contacts.solve(given, &work.motion, 0.0, &mut work.bodies)?;
+        left = work.contacts.solve(given, &work.motion, error, &mut work.bodies)?;
     }
     end_solves(bodies, given, work)?;
     Ok(left)
@@ -246,7 +247,7 @@ pub(super) fn set_out<const D: usize>(
     let stiffened = &mut contacts.reduced.delassus.stiffened;
     stiffened.let_go(&given.assembly.everyone);
     stiffened.spring_from_start(given.assembly, given.state, bodies);
-    stiffened.is_geometric = false;
+    stiffened.of_reactions = OfReactions::None;
     newton.holding.fill(Holding::default());
     (newton.caught, newton.giving_way) = (None, None);
     for (i, body) in bodies.iter_mut().enumerate() {

@@ -159,7 +159,7 @@ pub(super) fn check_together<const D: usize>(
 ) -> Result<(), StepError> {
     let Workspace { contacts, motion, bodies, newton, .. } = work;
     contacts.evaluate(given, motion, None, &given.assembly.everyone, bodies);
-    let was_geometric = contacts.is_stiffened();
+    let before = contacts.reduced.delassus.stiffened.of_reactions;
     if !contacts.take_stiffness_of_reactions() {
         return Ok(());
     }
@@ -168,7 +168,7 @@ pub(super) fn check_together<const D: usize>(
     let stiffened = &mut reduced.delassus.stiffened;
     let held = active.reactions.iter().zip(&active.friction).map(|(r, mu)| held_by::<D>(r, *mu));
     let node = stiffened.gives_way(active, held);
-    stiffened.is_geometric = was_geometric;
+    stiffened.of_reactions = before;
     match node.and_then(|n| given.assembly.body_of(n)) {
         Some(body) => Err(GivingWay { body, motion: Vec::new() }.error(given)),
         None => Ok(()),
