@@ -14,7 +14,7 @@ impl<const D: usize> ContactModel<D> {
         let found = out.len();
         // Multipliers are what the search finds of them. A pair may have been of nodes in an analysis before.
         let lasts = |c: &&Candidate| match c.site {
-            Site::Node(_) => !self.is_mortar(c.pair as usize),
+            Site::Node(_) | Site::Second(_) => !self.is_mortar(c.pair as usize),
             Site::Multiplier(..) => false,
             _ => true,
         };
@@ -35,7 +35,7 @@ impl<const D: usize> ContactModel<D> {
     pub fn still_touches(&self, candidate: &Candidate, apart: f64, position: &Positions<'_, D>) -> bool {
         let position = &self.placed(candidate.pair, position);
         match candidate.site {
-            Site::Node(node) | Site::Corner(node) => {
+            Site::Node(node) | Site::Corner(node) | Site::Second(node) => {
                 let faced = self.faced_surface(candidate).zip(candidate.facet);
                 faced.is_some_and(|(surface, f)| {
                     let x = position(node);

@@ -129,10 +129,23 @@ impl<const D: usize> Finder<D> {
         let counts = |pair: &Pair| !is_asleep(asleep, pair) && !at_rest.are_still(pair);
         contact.detect_node_by_node(counts, &at_end, search, missed);
         assembly.contact.detect_mortar(&at_end, missed_mortar, missed);
-        missed.retain(|m| found.binary_search_by_key(&m.key(), Candidate::key).is_err());
+        let known_as = |key| found.binary_search_by_key(&key, Candidate::key).ok().map(|k| &found[k]);
+        for m in &mut *missed {
+            if let (Site::Node(node), Some(first)) = (m.site, known_as(m.key()))
+                && first.facet != m.facet
+            {
+                m.site = Site::Second(node);
+            }
+        }
+        missed.retain(|m| known_as(m.key()).is_none());
+        missed.sort_unstable();
         assembly.contact.evaluate_all(missed, &end, missed_mortar, missed_contacts);
         let gaps = missed.iter().zip(&*missed_contacts).map(|(m, c)| c.gap - given.interference(m.key())[1]);
-        let missed_one = gaps.into_iter().any(|gap| gap < -assembly.round_off());
+        let are_inside: Vec<bool> = gaps.map(|gap| gap < -assembly.round_off()).collect();
+        let missed_one = are_inside.contains(&true);
+        // A second facet that nodes are not behind is that of a convex corner, which either of them keeps out of.
+        let mut is_inside = are_inside.iter();
+        missed.retain(|m| is_inside.next() == Some(&true) || !matches!(m.site, Site::Second(_)));
         let known = needed.len();
         // In load steps both would rule a turn that nothing resists: coarse fits of round parts did not converge.
         let is_static = interval.map.is_static();
@@ -167,7 +180,10 @@ impl<const D: usize> Finder<D> {
         if !self.has_looked || pairs.have_mortar() {
             return None;
         }
-        Some(self.found.iter().filter_map(|c| Some((c.pair, c.node()?))).collect())
+        let mut suspects: Vec<_> = self.found.iter().filter_map(|c| Some((c.pair, c.node()?))).collect();
+        suspects.sort_unstable();
+        suspects.dedup();
+        Some(suspects)
     }
 
     /// Whether candidates that nobody had found would have kept out what the measure of the step has found inside. If so, they are searched
