@@ -84,6 +84,8 @@ impl<const D: usize> Finder<D> {
                 Err(k) => candidates.insert(k, bond),
             }
         }
+        // A second facet that is the first one says nothing, and may not be the one that is missed.
+        candidates.retain(|c| !(c.redundant && matches!(c.site, Site::Second(_))));
         self.found.clone_from(candidates);
         self.has_looked = false;
     }
@@ -140,12 +142,22 @@ impl<const D: usize> Finder<D> {
         missed.retain(|m| known_as(m.key()).is_none());
         missed.sort_unstable();
         assembly.contact.evaluate_all(missed, &end, missed_mortar, missed_contacts);
-        let gaps = missed.iter().zip(&*missed_contacts).map(|(m, c)| c.gap - given.interference(m.key())[1]);
-        let are_inside: Vec<bool> = gaps.map(|gap| gap < -assembly.round_off()).collect();
-        let missed_one = are_inside.contains(&true);
-        // A second facet that nodes are not behind is that of a convex corner, which either of them keeps out of.
-        let mut is_inside = are_inside.iter();
-        missed.retain(|m| is_inside.next() == Some(&true) || !matches!(m.site, Site::Second(_)));
+        let mut missed_one = false;
+        let mut gaps = missed_contacts.iter().map(|c| c.gap);
+        missed.retain(|m| {
+            let Some(gap) = gaps.next() else { return true };
+            // On a smooth target a facet that is not the one it was is no second one.
+            let first = match m.site {
+                Site::Second(node) => known_as((m.pair, Site::Node(node))),
+                _ => None,
+            };
+            let other = first.map(|first| assembly.contact.evaluate(first, &end).gap);
+            let least = given.interference(m.key())[1] + other.unwrap_or(0.0).min(0.0);
+            let is_inside = gap < least - assembly.round_off();
+            missed_one |= is_inside;
+            // What nodes are not behind is a facet of a convex corner, which either of both keeps out of.
+            is_inside || first.is_none()
+        });
         let known = needed.len();
         // In load steps both would rule a turn that nothing resists: coarse fits of round parts did not converge.
         let is_static = interval.map.is_static();
