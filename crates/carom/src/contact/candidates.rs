@@ -135,6 +135,7 @@ impl<const D: usize> Finder<D> {
         for m in &mut *missed {
             if let (Site::Node(node), Some(first)) = (m.site, known_as(m.key()))
                 && first.facet != m.facet
+                && contact.is_beside(first, &end)
             {
                 m.site = Site::Second(node);
             }
