@@ -14,7 +14,9 @@ impl<const D: usize> ContactModel<D> {
             candidates[k].redundant = match c.site {
                 Site::Node(node) => self.is_second_side(&c, node, position, candidates),
                 Site::Corner(corner) => self.is_at_node(&c, corner, position, candidates),
-                Site::Second(node) => self.is_first(&c, node, position, candidates),
+                // The facet that the node faces anyway.
+                Site::Second(node) => find(candidates, c.pair, Site::Node(node))
+                    .is_some_and(|first| candidates[first].facet == c.facet),
                 Site::Facet(_) | Site::Edge(_) => self.is_said_before(k, position, candidates),
                 Site::Multiplier(..) | Site::Crossing(..) | Site::Between(..) => false,
             };
@@ -48,24 +50,6 @@ impl<const D: usize> ContactModel<D> {
         (!is_own || faced < node)
             && find(candidates, first as u32, Site::Node(faced))
                 .is_some_and(|k| self.faced_node(&candidates[k], faced, position) == Some(node))
-    }
-
-    /// Whether the second facet of a `node` is the one that it faces anyway.
-    fn is_first(
-        &self,
-        second: &Candidate,
-        node: u32,
-        position: &Positions<'_, D>,
-        candidates: &[Candidate],
-    ) -> bool {
-        find(candidates, second.pair, Site::Node(node)).is_some_and(|k| {
-            let first = &candidates[k];
-            first.facet == second.facet || {
-                // On a smooth target the closest point moves on from one facet to the other.
-                let [a, b] = [first, second].map(|c| self.evaluate(c, position));
-                a.gap == b.gap && a.frame.row(0) == b.frame.row(0)
-            }
-        })
     }
 
     /// Whether one of `candidates`, which are in order, is a node of the second side of its pair that was left out, as one of the first stood for it, and has

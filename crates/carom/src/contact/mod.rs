@@ -35,7 +35,7 @@ use self::islands::Islands;
 use self::on_masses::OnMasses;
 use self::reduced::Reduced;
 use self::slip::Slip;
-use self::stiffened::OfReactions;
+use self::stiffened::{OfReactions, Stiffened};
 use crate::body::Body;
 use crate::error::StepError;
 use crate::model::assembly::Assembly;
@@ -158,10 +158,12 @@ impl<const D: usize> Contacts<D> {
         self.reduced.delassus.stiffened.of_reactions != OfReactions::None
     }
 
-    /// Whether `bodies` that touch may give way together: springs of contacts have made a tangent definite. Of many contacts this is not asked.
+    /// Whether `bodies` that touch may give way together: springs of contacts have made a tangent definite, or it took the whole stiffness of reactions to get
+    /// there. Of many contacts this is not asked.
     pub fn are_in_question(&self, bodies: &[usize]) -> bool {
-        let is_sprung = &self.reduced.delassus.stiffened.is_sprung;
-        self.active.contacts.len() <= CONTROL.stiffened && bodies.iter().any(|&i| is_sprung[i])
+        let Stiffened { is_sprung, of_reactions, .. } = &self.reduced.delassus.stiffened;
+        let is_mended = || *of_reactions == OfReactions::Whole || bodies.iter().any(|&i| is_sprung[i]);
+        self.active.contacts.len() <= CONTROL.stiffened && is_mended()
     }
 
     /// From now on they have, in the rest of the step, unless they are so many that it costs more than it saves. Returns whether they have.

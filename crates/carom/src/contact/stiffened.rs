@@ -33,7 +33,7 @@ use crate::model::state::State;
 pub(crate) type Springs<const D: usize> = Vec<(u32, Matrix<D>)>;
 
 /// What a tangent has of the stiffness of reactions.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum OfReactions {
     /// Nothing: elastic bodies that pressure takes little of converge without.
     None,

@@ -159,7 +159,11 @@ fn approach<const D: usize>(
                 bodies.iter().for_each(|&i| work.newton.holding[i].loosen());
             }
             if load_step.is_linear(iteration) {
-                work.contacts.reduced.delassus.stiffened.of_reactions = OfReactions::Whole;
+                let of_reactions = &mut work.contacts.reduced.delassus.stiffened.of_reactions;
+                // W is no longer symmetric with all of it, which not every solver bears.
+                let whole = *of_reactions != OfReactions::None && load_step.has_stalled();
+                *of_reactions =
+                    if whole { OfReactions::Whole } else { OfReactions::Symmetric.max(*of_reactions) };
             }
             if load_step.is_shrinking() {
                 bodies.iter().for_each(|&i| work.newton.holding[i].lower());
