@@ -137,8 +137,9 @@ impl<const D: usize> Finder<D> {
         let counts = |pair: &Pair| !is_asleep(asleep, pair) && !at_rest.are_still(pair);
         contact.detect_node_by_node(counts, &at_end, search, missed);
         assembly.contact.detect_mortar(&at_end, missed_mortar, missed);
-        // Two facets may change places from one attempt at a step to the next. In load steps nodes turn to another facet without.
-        let may_have_second = !interval.map.is_static() && self.repetition < CONTROL.second_facets;
+        // Two facets may change places from one attempt at a step to the next. In load steps nodes turn to another facet without, and in
+        // space rows of faces that lie flush on one another would say the same many times.
+        let may_have_second = D == 2 && !interval.map.is_static() && self.repetition < CONTROL.second_facets;
         let known_as = |key| found.binary_search_by_key(&key, Candidate::key).ok().map(|k| &found[k]);
         for m in &mut *missed {
             if let (Site::Node(node), Some(first)) = (m.site, known_as(m.key()))

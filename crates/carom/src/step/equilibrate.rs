@@ -106,7 +106,9 @@ fn approach<const D: usize>(
         let late = (iteration > LOAD_STEP.late).then_some(load_step.last);
         let moved = bodies.iter().map(|&i| nodal::largest(&work.motion[given.assembly.nodes(i)]));
         let motion = moved.fold(0.0, f64::max);
-        let error = load_step.contact_error(motion);
+        // Where tangents are indefinite, a loose solution would pass over states that have none.
+        let is_whole = work.contacts.reduced.delassus.stiffened.of_reactions == OfReactions::Whole;
+        let error = if is_whole { load_step.contact_error(motion) } else { 0.0 };
         let solved = solve(bodies, (late, error), given, next, work);
         let (correction, left, reason) = match solved {
             Ok(left) => {
@@ -159,9 +161,11 @@ fn approach<const D: usize>(
                 bodies.iter().for_each(|&i| work.newton.holding[i].loosen());
             }
             if load_step.is_linear(iteration) {
-                let of_reactions = &mut work.contacts.reduced.delassus.stiffened.of_reactions;
-                // W is no longer symmetric with all of it, which not every solver bears.
-                let whole = *of_reactions != OfReactions::None && load_step.has_stalled();
+                let Stiffened { of_reactions, is_sprung, .. } = &mut work.contacts.reduced.delassus.stiffened;
+                let is_definite = |&i: &usize| !is_sprung[i] && !work.newton.holding[i].was_indefinite;
+                // W is not symmetric with all of it, which not every solver bears; and where tangents are indefinite it passes over states that give way.
+                let needs_all = *of_reactions != OfReactions::None && load_step.has_stalled();
+                let whole = needs_all && bodies.iter().all(is_definite);
                 *of_reactions =
                     if whole { OfReactions::Whole } else { OfReactions::Symmetric.max(*of_reactions) };
             }
