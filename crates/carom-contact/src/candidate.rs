@@ -19,8 +19,6 @@ pub enum Site {
     /// A point of an edge of the source between its nodes, so many sixteenths of the way from its first to its second, before a facet of the
     /// target. One of the two is of second order.
     Between([u32; 2], u32),
-    /// A node before a second facet: beyond a concave kink it is before the facet that it came to first, and behind the next one.
-    Second(u32),
 }
 
 /// What may touch its target within a step. Ordered by pair, then site: this is the order of the contacts.
@@ -55,7 +53,7 @@ impl Candidate {
     #[must_use]
     pub fn node(&self) -> Option<u32> {
         match self.site {
-            Site::Node(node) | Site::Multiplier(node, _) | Site::Second(node) => Some(node),
+            Site::Node(node) | Site::Multiplier(node, _) => Some(node),
             _ => None,
         }
     }

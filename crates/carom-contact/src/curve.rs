@@ -98,18 +98,13 @@ impl Curve {
             }
             let next = segment.neighbours[end].map(|next| &self.segments[next as usize]);
             let next = next.map(|next| (next, Cubic::new(next, x, position)));
-            let beyond = offset.beyond(ENDS[end]);
-            // At a kink a point stays with the segment it came to first: beside both of them before a convex one, and so that its gap does not jump
-            // behind a concave one.
-            let stays = |there: &Cubic<D>| {
-                segment.is_flat[end] && (beyond.abs() < SEARCH.beyond || there.falls(1 - end))
-            };
+            // Before a kink a point is beside both segments: it stays with the one it came to first.
             match next {
-                Some((next, there)) if !stays(&there) => {
+                Some((next, there)) if !(segment.is_flat[end] && there.falls(1 - end)) => {
                     (segment, offset, from) = (next, there, Some(1 - end));
                 }
                 _ => {
-                    let beyond = beyond.clamp(-SEARCH.beyond, SEARCH.beyond);
+                    let beyond = offset.beyond(ENDS[end]).clamp(-SEARCH.beyond, SEARCH.beyond);
                     return segment.foot(&offset, x, ENDS[end], beyond);
                 }
             }

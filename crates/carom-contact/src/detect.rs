@@ -206,7 +206,7 @@ impl<const D: usize> ContactModel<D> {
                 self.before_obstacle(candidate, &self.obstacles[o], position).anchored(position)
             }
             Target::Surface(t) => match (candidate.site, candidate.facet) {
-                (Site::Node(node) | Site::Second(node), Some(f)) => {
+                (Site::Node(node), Some(f)) => {
                     let x = position(node);
                     let p = self.surfaces[t].project(f, &x, Reach::Beyond, position);
                     let gap = p.normal.dot(&(x - p.point));
@@ -284,7 +284,7 @@ impl<const D: usize> ContactModel<D> {
             Contact::before_obstacle(gap, frame(normal), nodes, weights, obstacle.node)
         };
         match (candidate.site, &obstacle.faceted, candidate.facet) {
-            (Site::Node(node) | Site::Second(node), Some(faceted), Some(f)) => {
+            (Site::Node(node), Some(faceted), Some(f)) => {
                 let x = position(node);
                 let p = faceted.surface.project(f, &x, Reach::Beyond, position);
                 contact(p.normal.dot(&(x - p.point)), &p.normal, &[node], &[1.0])
@@ -309,7 +309,7 @@ impl<const D: usize> ContactModel<D> {
             (Site::Facet(_) | Site::Edge(_), ..) => {
                 self.before_round(candidate, obstacle, position).unwrap_or_else(Contact::with_nothing)
             }
-            (Site::Corner(_), _, None) | (Site::Multiplier(..) | Site::Between(..) | Site::Second(_), ..) => {
+            (Site::Corner(_), _, None) | (Site::Multiplier(..) | Site::Between(..), ..) => {
                 Contact::with_nothing()
             }
         }

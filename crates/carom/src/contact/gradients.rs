@@ -85,7 +85,7 @@ impl<const D: usize> Gradients<D> {
         };
         for of_node in known_to.chunk_by(alike) {
             if places[of_node[0].0] != NONE {
-                self.move_node(given, active, motion, of_node, (places, whole), stiffness);
+                self.move_node(given, (active, motion), of_node, (places, whole), stiffness);
             }
         }
         self.known_to = known_to;
@@ -95,8 +95,7 @@ impl<const D: usize> Gradients<D> {
     fn move_node(
         &mut self,
         given: &Given<'_, D>,
-        active: &ActiveSet<D>,
-        motion: &[Vector<D>],
+        (active, motion): (&ActiveSet<D>, &[Vector<D>]),
         of_node: &[(usize, usize)],
         (places, whole): (&[u32], bool),
         stiffness: &mut Woodbury<D>,

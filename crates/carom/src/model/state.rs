@@ -61,7 +61,7 @@ impl<const D: usize> Reaction<D> {
     pub fn node(&self) -> u32 {
         let nearest = || self.contact.sources().max_by(|(_, a), (_, b)| a.total_cmp(b));
         match self.site {
-            Site::Node(node) | Site::Multiplier(node, _) | Site::Second(node) => node,
+            Site::Node(node) | Site::Multiplier(node, _) => node,
             _ => nearest().map_or(u32::MAX, |(node, _)| node as u32),
         }
     }

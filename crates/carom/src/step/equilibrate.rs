@@ -163,8 +163,10 @@ fn approach<const D: usize>(
             if load_step.is_linear(iteration) {
                 let Stiffened { of_reactions, is_sprung, .. } = &mut work.contacts.reduced.delassus.stiffened;
                 let is_definite = |&i: &usize| !is_sprung[i] && !work.newton.holding[i].was_indefinite;
-                // W is not symmetric with all of it, which not every solver bears; and where tangents are indefinite it passes over states that give way.
-                let needs_all = *of_reactions != OfReactions::None && load_step.has_stalled();
+                // W is not symmetric with all of it, which not every solver bears. And it is there to end what has nearly ended: far away, or where tangents are
+                // indefinite, it would pass over states that give way.
+                let needs_all =
+                    *of_reactions != OfReactions::None && load_step.has_stalled() && load_step.is_near();
                 let whole = needs_all && bodies.iter().all(is_definite);
                 *of_reactions =
                     if whole { OfReactions::Whole } else { OfReactions::Symmetric.max(*of_reactions) };

@@ -97,6 +97,8 @@ pub(crate) struct LoadControl {
     pub hoped: f64,
     /// The tangent lacks the stiffness of reactions where corrections of late iterations shrink by less than this.
     pub slow: f64,
+    /// A guess is near the solution where the last correction was no more than this, relative to the largest motion of the step.
+    pub near: f64,
     /// After so many an iteration is late, and a normal that jumps has crossed a kink of its target, which no smaller correction will undo.
     pub late: usize,
     /// Guesses that may be refused before the step is.
@@ -123,6 +125,7 @@ pub(crate) const LOAD_STEP: LoadControl = LoadControl {
     trusted: 1e-8,
     hoped: 0.1,
     slow: 0.3,
+    near: 1e-4,
     late: 4,
     refusals: 8,
     first: 1e-3,

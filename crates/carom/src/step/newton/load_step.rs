@@ -120,6 +120,11 @@ impl LoadStep {
         self.stalled >= LOAD_STEP.stalled
     }
 
+    /// Whether what is left is small beside what the step has moved.
+    pub fn is_near(&self) -> bool {
+        self.last <= LOAD_STEP.near * self.reach
+    }
+
     /// Whether corrections shrink no faster than they would by a tangent that lacks something.
     pub fn is_linear(&self, iteration: usize) -> bool {
         iteration > LOAD_STEP.late && self.contraction > LOAD_STEP.slow
