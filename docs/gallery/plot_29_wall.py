@@ -32,6 +32,7 @@ ball = carom.RigidBody(
     density=7800.0,
     mesh=carom.Disc(centre=[-0.25, 0.45], radius=0.12, divisions=8),
     velocity=[6.0, 0.0],
+    round=True,
 )
 scenario = carom.Scenario(
     title="A wall is hit",
@@ -39,12 +40,7 @@ scenario = carom.Scenario(
     output=carom.Output(fields_every=0.01),
     bodies=[*bricks, ball],
     obstacles=[carom.Plane(name="ground", point=[0.0, 0.0], normal=[0.0, 1.0])],
-    contact=carom.Contact(
-        condition="endpoint",
-        friction=0.5,
-        solver=carom.FrictionSolver(tolerance=1e-10),
-        certificate_tolerance=1e-7,
-    ),
+    contact=carom.Contact(condition="endpoint", friction=0.5),
 )
 result = carom.run(scenario, out=mkdtemp())
 history, energy = result.history, result.summary["energy"]
