@@ -84,7 +84,7 @@ pub fn facet_area<const D: usize>(mesh: &Mesh<D>, facet: &Facet, depth: Depth) -
 /// # Errors
 /// If a cell is inverted or degenerate.
 pub fn volume_of<const D: usize>(cells: &Cells<'_, D>) -> Result<f64, FemError> {
-    with_node_count!(cells.block.kind, N => {
+    with_node_count!(D, cells.block.kind, N => {
         Ok(ShapeTable::<D, N>::new(cells, Integrand::Values)?.weights.iter().sum())
     })
 }

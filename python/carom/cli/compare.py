@@ -110,7 +110,7 @@ def _rows(changes: tuple[Change, ...]) -> list[tuple[str, str, str]]:
 def _text(value: Any) -> str:  # noqa: ANN401 (any JSON value)
     if value is None:
         return "–"
-    return f"{value:.8g}" if isinstance(value, float) else str(value)
+    return f"{value + 0.0:.8g}" if isinstance(value, float) else str(value)  # never -0
 
 
 def _difference(change: Change) -> str:

@@ -49,7 +49,8 @@ def comparison_figure(comparison: Comparison, columns: Sequence[str] | None = No
                 axes.plot(
                     run.history["time"] / unit.seconds, run.history[column], label=name, **style
                 )
-            axes.set_ylabel(column, parse_math=False)
+            label = f"{column} [J]" if column in ENERGIES else column
+            axes.set_ylabel(label, parse_math=False)
         diagrams[-1].set_xlabel(f"time [{unit.symbol}]")
         handles, labels = diagrams[0].get_legend_handles_labels()
         picture.legend(handles, labels, loc="outside upper left", ncols=2)

@@ -51,13 +51,16 @@ pub fn elements<const D: usize>(
                 || D == 2 && hypothesis == Hypothesis::PlaneStrain && spec.grows =>
         {
             let law = spec.point_law::<3>(spec.hypothesis)?;
-            Ok(with_node_count!(kind, N => {
-                Box::new(Block::<D, 3, N, Embedded> { law, grid: Grid::new(cells, graph)? })
-            }))
+            match D {
+                2 => Ok(with_node_count!(2, kind, N => {
+                    Box::new(Block::<D, 3, N, Embedded> { law, grid: Grid::new(cells, graph)? })
+                })),
+                _ => Err(FemError::Hypothesis { name: "axisymmetric" }),
+            }
         }
         (Formulation::Standard, _) => {
             let law = spec.point_law::<D>(spec.hypothesis)?;
-            Ok(with_node_count!(kind, N => {
+            Ok(with_node_count!(D, kind, N => {
                 Box::new(Block::<D, D, N, Solid> { law, grid: Grid::new(cells, graph)? })
             }))
         }
@@ -76,12 +79,15 @@ pub fn dashpots<const D: usize>(
 ) -> Result<Box<dyn Dashpots<D>>, FemError> {
     let viscosity = spec.viscosity;
     match spec.hypothesis {
-        Hypothesis::PlaneStrain => Ok(with_node_count!(cells.block.kind, N => {
+        Hypothesis::PlaneStrain => Ok(with_node_count!(D, cells.block.kind, N => {
             Box::new(ViscousBlock::<D, D, N, Solid> { viscosity, objective, grid: Grid::new(cells, graph)? })
         })),
-        Hypothesis::Axisymmetric => Ok(with_node_count!(cells.block.kind, N => {
-            Box::new(ViscousBlock::<D, 3, N, Embedded> { viscosity, objective, grid: Grid::new(cells, graph)? })
-        })),
+        Hypothesis::Axisymmetric => match D {
+            2 => Ok(with_node_count!(2, cells.block.kind, N => {
+                Box::new(ViscousBlock::<D, 3, N, Embedded> { viscosity, objective, grid: Grid::new(cells, graph)? })
+            })),
+            _ => Err(FemError::Hypothesis { name: "axisymmetric" }),
+        },
         Hypothesis::PlaneStress => Err(FemError::PlaneStress { what: "viscosity" }),
     }
 }

@@ -15,7 +15,7 @@ pub fn add_mass<const D: usize>(
     density: f64,
     m: &mut NodalMatrix<f64>,
 ) -> Result<(), FemError> {
-    with_node_count!(cells.block.kind, N => add_mass_of::<D, N>(cells, density, m))
+    with_node_count!(D, cells.block.kind, N => add_mass_of::<D, N>(cells, density, m))
 }
 
 /// Adds a lumped mass [kg] of `cells` to the diagonal of `m`. It is that of the consistent mass, scaled cell by cell so that
@@ -30,7 +30,7 @@ pub fn add_scaled_diagonal_mass<const D: usize>(
     density: f64,
     m: &mut NodalMatrix<f64>,
 ) -> Result<(), FemError> {
-    with_node_count!(cells.block.kind, N => add_scaled_diagonal_mass_of::<D, N>(cells, density, m))
+    with_node_count!(D, cells.block.kind, N => add_scaled_diagonal_mass_of::<D, N>(cells, density, m))
 }
 
 fn add_mass_of<const D: usize, const N: usize>(

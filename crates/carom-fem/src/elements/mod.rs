@@ -120,20 +120,33 @@ pub trait Elements<const D: usize>: Send + Sync + Debug {
     fn update(&self, u: &[Vector<D>], growth: Growth, history: &mut [PlasticState]) -> f64;
 }
 
-/// Evaluates an expression in which `$n` is the number of nodes of cells of a kind, as a constant.
+/// Evaluates an expression in which `$n` is the number of nodes of cells of a kind, as a constant; `$d` is the dimension of the mesh.
+///
+/// A mesh refuses cells of another dimension than its own. Code for them is not compiled: it was half of what elements are.
 macro_rules! with_node_count {
-    ($kind:expr, $n:ident => $body:expr) => {
+    ($d:ident, $kind:expr, $n:ident => $body:expr) => {
+        match $d {
+            2 => with_node_count!(2, $kind, $n => $body),
+            _ => match $kind {
+                CellKind::Tet4 => with_node_count!(@ 4, $n, $body),
+                CellKind::Wedge6 => with_node_count!(@ 6, $n, $body),
+                CellKind::Hex8 => with_node_count!(@ 8, $n, $body),
+                CellKind::Tet10 => with_node_count!(@ 10, $n, $body),
+                CellKind::Wedge15 => with_node_count!(@ 15, $n, $body),
+                CellKind::Hex20 => with_node_count!(@ 20, $n, $body),
+                CellKind::Hex27 => with_node_count!(@ 27, $n, $body),
+                other => unreachable!("a mesh of space has no cells {other:?}"),
+            },
+        }
+    };
+    (2, $kind:expr, $n:ident => $body:expr) => {
         match $kind {
-            CellKind::Line2 => with_node_count!(@ 2, $n, $body),
-            CellKind::Line3 | CellKind::Tri3 => with_node_count!(@ 3, $n, $body),
-            CellKind::Quad4 | CellKind::Tet4 => with_node_count!(@ 4, $n, $body),
-            CellKind::Tri6 | CellKind::Wedge6 => with_node_count!(@ 6, $n, $body),
-            CellKind::Quad8 | CellKind::Hex8 => with_node_count!(@ 8, $n, $body),
+            CellKind::Tri3 => with_node_count!(@ 3, $n, $body),
+            CellKind::Quad4 => with_node_count!(@ 4, $n, $body),
+            CellKind::Tri6 => with_node_count!(@ 6, $n, $body),
+            CellKind::Quad8 => with_node_count!(@ 8, $n, $body),
             CellKind::Quad9 => with_node_count!(@ 9, $n, $body),
-            CellKind::Tet10 => with_node_count!(@ 10, $n, $body),
-            CellKind::Wedge15 => with_node_count!(@ 15, $n, $body),
-            CellKind::Hex20 => with_node_count!(@ 20, $n, $body),
-            CellKind::Hex27 => with_node_count!(@ 27, $n, $body),
+            other => unreachable!("a mesh of the plane has no cells {other:?}"),
         }
     };
     (@ $count:literal, $n:ident, $body:expr) => {{
