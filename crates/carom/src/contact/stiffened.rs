@@ -180,6 +180,18 @@ impl<const D: usize> Stiffened<D> {
         self.of_reactions = OfReactions::None;
     }
 
+    /// Has more of the stiffness of reactions from now on, where it `may_be_whole` all of it. W is not symmetric with all of it, which not every solver
+    /// bears. And it is there to end what has nearly ended: far away, or where `bodies` have springs or indefinite tangents, it would pass over
+    /// states that give way.
+    pub fn have_more(&mut self, bodies: &[usize], may_be_whole: bool) {
+        let is_held = bodies.iter().all(|&i| !self.is_sprung[i]);
+        self.of_reactions = match self.of_reactions {
+            OfReactions::None => OfReactions::Symmetric,
+            OfReactions::Symmetric if may_be_whole && is_held => OfReactions::Whole,
+            known => known,
+        };
+    }
+
     /// Takes the springs of the tangents from the contacts that press: those that a step starts with.
     pub fn spring_from_start(
         &mut self,

@@ -106,10 +106,7 @@ fn approach<const D: usize>(
         let late = (iteration > LOAD_STEP.late).then_some(load_step.last);
         let moved = bodies.iter().map(|&i| nodal::largest(&work.motion[given.assembly.nodes(i)]));
         let motion = moved.fold(0.0, f64::max);
-        // Where tangents are indefinite, a loose solution would pass over states that have none.
-        let is_whole = work.contacts.reduced.delassus.stiffened.of_reactions == OfReactions::Whole;
-        let error = if is_whole { load_step.contact_error(motion) } else { 0.0 };
-        let solved = solve(bodies, (late, error), given, next, work);
+        let solved = solve(bodies, late, given, next, work);
         let (correction, left, reason) = match solved {
             Ok(left) => {
                 work.newton.leave_out();
@@ -161,15 +158,10 @@ fn approach<const D: usize>(
                 bodies.iter().for_each(|&i| work.newton.holding[i].loosen());
             }
             if load_step.is_linear(iteration) {
-                let Stiffened { of_reactions, is_sprung, .. } = &mut work.contacts.reduced.delassus.stiffened;
-                let is_definite = |&i: &usize| !is_sprung[i] && !work.newton.holding[i].was_indefinite;
-                // W is not symmetric with all of it, which not every solver bears. And it is there to end what has nearly ended: far away, or where tangents are
-                // indefinite, it would pass over states that give way.
-                let needs_all =
-                    *of_reactions != OfReactions::None && load_step.has_stalled() && load_step.is_near();
-                let whole = needs_all && bodies.iter().all(is_definite);
-                *of_reactions =
-                    if whole { OfReactions::Whole } else { OfReactions::Symmetric.max(*of_reactions) };
+                let is_definite = |&i: &usize| !work.newton.holding[i].was_indefinite;
+                let is_nearly_over = load_step.has_stalled() && load_step.is_near();
+                let stiffened = &mut work.contacts.reduced.delassus.stiffened;
+                stiffened.have_more(bodies, is_nearly_over && bodies.iter().all(is_definite));
             }
             if load_step.is_shrinking() {
                 bodies.iter().for_each(|&i| work.newton.holding[i].lower());
@@ -180,11 +172,10 @@ fn approach<const D: usize>(
     unreachable!("the loop ends at max_iterations")
 }
 
-/// Solves for a correction at the present guess, and for the reactions there; `late` in the iterations the last correction [m] is known, and how far off contacts
-/// may be. Returns what the tolerance of the contact problem leaves of motions [m].
+/// Solves for a correction at the present guess, and for the reactions there; `late` in the iterations the last correction [m] is known. Returns what the tolerance of the contact problem leaves of motions [m].
 fn solve<const D: usize>(
     bodies: &[usize],
-    (late, error): (Option<f64>, f64),
+    late: Option<f64>,
     given: &Given<'_, D>,
     next: &mut State<D>,
     work: &mut Workspace<D>,
@@ -205,7 +196,7 @@ fn solve<const D: usize>(
     begin_solves(bodies, given, reacts, work);
     let mut left = 0.0;
     if reacts {
-        left = work.contacts.solve(given, &work.motion, error, &mut work.bodies)?;
+        left = work.contacts.solve(given, &work.motion, 0.0, &mut work.bodies)?;
     }
     end_solves(bodies, given, work)?;
     Ok(left)

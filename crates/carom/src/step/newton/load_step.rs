@@ -64,12 +64,6 @@ impl LoadStep {
         (self.tolerance * motion.max(self.reached)).max(round_off)
     }
 
-    /// What contacts may be off [m] in the next iteration, zero for as little as can be. Where redundant ones share a load in many ways, each problem
-    /// that is solved to the last digit finds another: corrections do not shrink, though all that they mend is less than what may be left.
-    pub fn contact_error(&self, motion: f64) -> f64 {
-        if self.has_stalled() { self.wanted(motion, 0.0) } else { 0.0 }
-    }
-
     /// Judges a `correction` [m] of a guess that has moved nodes by up to `motion` [m].
     ///
     /// # Errors
