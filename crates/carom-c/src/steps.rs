@@ -109,7 +109,9 @@ impl<const D: usize> Steps for PlantedContact<D> {
 
     fn nodes(&self) -> Vec<Option<u32>> {
         let node = |site: Site| match site {
-            Site::Node(node) | Site::Multiplier(node, _) => self.callers_node(node as usize),
+            Site::Node(node) | Site::Multiplier(node, _) | Site::Second(node) => {
+                self.callers_node(node as usize)
+            }
             _ => None,
         };
         self.candidates().iter().map(|c| node(c.site)).collect()

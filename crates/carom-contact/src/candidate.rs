@@ -1,3 +1,5 @@
+use crate::project::Reach;
+
 /// Where a contact is, the same from step to step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Site {
@@ -19,6 +21,8 @@ pub enum Site {
     /// A point of an edge of the source between its nodes, so many sixteenths of the way from its first to its second, before a facet of the
     /// target. One of the two is of second order.
     Between([u32; 2], u32),
+    /// A node before a second facet: beyond a concave kink it is before the facet that it came to first, and behind the next one.
+    Second(u32),
 }
 
 /// What may touch its target within a step. Ordered by pair, then site: this is the order of the contacts.
@@ -34,26 +38,33 @@ pub struct Candidate {
     /// Whether it says what another candidate says, and is to be left out. Of two nodes that face one another one is left out, and so is
     /// one of a node and the edges that cross at it.
     pub redundant: bool,
+    /// Whether it stays with its facet where it slides over a kink of a smooth target; else it goes on to the next one.
+    pub stays: bool,
 }
 
 impl Candidate {
     /// The source `node` of a pair, facing a facet if its target has some.
     #[must_use]
     pub fn at_node(pair: u32, node: u32, facet: Option<u32>) -> Self {
-        Self { pair, site: Site::Node(node), facet, redundant: false }
+        Self { pair, site: Site::Node(node), facet, redundant: false, stays: false }
     }
 
     /// The multiplier of the source `node` of a mortar pair on a `side` of the source there.
     #[must_use]
     pub fn of_multiplier(pair: u32, (node, side): (u32, u32)) -> Self {
-        Self { pair, site: Site::Multiplier(node, side), facet: None, redundant: false }
+        Self { pair, site: Site::Multiplier(node, side), facet: None, redundant: false, stays: false }
+    }
+
+    /// How far its facet reaches beyond its edges.
+    pub(crate) fn reach(&self) -> Reach {
+        if self.stays { Reach::Own } else { Reach::Beyond }
     }
 
     /// The node, if it is at one.
     #[must_use]
     pub fn node(&self) -> Option<u32> {
         match self.site {
-            Site::Node(node) | Site::Multiplier(node, _) => Some(node),
+            Site::Node(node) | Site::Multiplier(node, _) | Site::Second(node) => Some(node),
             _ => None,
         }
     }

@@ -98,13 +98,18 @@ impl Curve {
             }
             let next = segment.neighbours[end].map(|next| &self.segments[next as usize]);
             let next = next.map(|next| (next, Cubic::new(next, x, position)));
+            let beyond = offset.beyond(ENDS[end]);
             // Before a kink a point is beside both segments: it stays with the one it came to first.
+            let stays = |there: &Cubic<D>| {
+                let is_its_own = reach == Reach::Own && beyond.abs() < SEARCH.beyond;
+                segment.is_flat[end] && (is_its_own || there.falls(1 - end))
+            };
             match next {
-                Some((next, there)) if !(segment.is_flat[end] && there.falls(1 - end)) => {
+                Some((next, there)) if !stays(&there) => {
                     (segment, offset, from) = (next, there, Some(1 - end));
                 }
                 _ => {
-                    let beyond = offset.beyond(ENDS[end]).clamp(-SEARCH.beyond, SEARCH.beyond);
+                    let beyond = beyond.clamp(-SEARCH.beyond, SEARCH.beyond);
                     return segment.foot(&offset, x, ENDS[end], beyond);
                 }
             }

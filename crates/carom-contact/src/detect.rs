@@ -186,7 +186,13 @@ impl<const D: usize> ContactModel<D> {
                 scratch,
                 |corner, facet| {
                     let site = Site::Corner(corner);
-                    out.push(Candidate { pair: pair_index, site, facet: Some(facet), redundant: false });
+                    out.push(Candidate {
+                        pair: pair_index,
+                        site,
+                        facet: Some(facet),
+                        redundant: false,
+                        stays: false,
+                    });
                 },
             );
         }
@@ -206,9 +212,9 @@ impl<const D: usize> ContactModel<D> {
                 self.before_obstacle(candidate, &self.obstacles[o], position).anchored(position)
             }
             Target::Surface(t) => match (candidate.site, candidate.facet) {
-                (Site::Node(node), Some(f)) => {
+                (Site::Node(node) | Site::Second(node), Some(f)) => {
                     let x = position(node);
-                    let p = self.surfaces[t].project(f, &x, Reach::Beyond, position);
+                    let p = self.surfaces[t].project(f, &x, candidate.reach(), position);
                     let gap = p.normal.dot(&(x - p.point));
                     Contact::new(gap, frame(&p.normal), node, p.nodes, &p.weights)
                 }
@@ -284,9 +290,9 @@ impl<const D: usize> ContactModel<D> {
             Contact::before_obstacle(gap, frame(normal), nodes, weights, obstacle.node)
         };
         match (candidate.site, &obstacle.faceted, candidate.facet) {
-            (Site::Node(node), Some(faceted), Some(f)) => {
+            (Site::Node(node) | Site::Second(node), Some(faceted), Some(f)) => {
                 let x = position(node);
-                let p = faceted.surface.project(f, &x, Reach::Beyond, position);
+                let p = faceted.surface.project(f, &x, candidate.reach(), position);
                 contact(p.normal.dot(&(x - p.point)), &p.normal, &[node], &[1.0])
             }
             (Site::Node(node), ..) => {
@@ -309,7 +315,7 @@ impl<const D: usize> ContactModel<D> {
             (Site::Facet(_) | Site::Edge(_), ..) => {
                 self.before_round(candidate, obstacle, position).unwrap_or_else(Contact::with_nothing)
             }
-            (Site::Corner(_), _, None) | (Site::Multiplier(..) | Site::Between(..), ..) => {
+            (Site::Corner(_), _, None) | (Site::Multiplier(..) | Site::Between(..) | Site::Second(_), ..) => {
                 Contact::with_nothing()
             }
         }

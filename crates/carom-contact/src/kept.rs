@@ -14,7 +14,7 @@ impl<const D: usize> ContactModel<D> {
         let found = out.len();
         // Multipliers are what the search finds of them. A pair may have been of nodes in an analysis before.
         let lasts = |c: &&Candidate| match c.site {
-            Site::Node(_) => !self.is_mortar(c.pair as usize),
+            Site::Node(_) | Site::Second(_) => !self.is_mortar(c.pair as usize),
             Site::Multiplier(..) => false,
             _ => true,
         };
@@ -29,13 +29,25 @@ impl<const D: usize> ContactModel<D> {
         }
     }
 
+    /// Whether a node is beside the facet that it was found before, so that another one may be its [second](Site::Second).
+    #[must_use]
+    pub fn is_beside(&self, first: &Candidate, position: &Positions<'_, D>) -> bool {
+        let (Site::Node(node), Some(f)) = (first.site, first.facet) else { return false };
+        let position = &self.placed(first.pair, position);
+        self.faced_surface(first).is_some_and(|surface| {
+            let [on, beyond] = [Reach::Facet, Reach::Beyond]
+                .map(|reach| surface.project(f, &position(node), reach, position).point);
+            (on - beyond).norm() > SEARCH.tie * diameter(&surface.facets[f as usize], position)
+        })
+    }
+
     /// Whether a candidate that pressed before, `apart` from what it faced or inside it by so much [m], still touches it, up to a little beyond
     /// the edge of that. There the trembling of round-off would decide from step to step which of two nodes that face one another is found.
     #[must_use]
     pub fn still_touches(&self, candidate: &Candidate, apart: f64, position: &Positions<'_, D>) -> bool {
         let position = &self.placed(candidate.pair, position);
         match candidate.site {
-            Site::Node(node) | Site::Corner(node) => {
+            Site::Node(node) | Site::Corner(node) | Site::Second(node) => {
                 let faced = self.faced_surface(candidate).zip(candidate.facet);
                 faced.is_some_and(|(surface, f)| {
                     let x = position(node);

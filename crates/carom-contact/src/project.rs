@@ -29,6 +29,8 @@ pub enum Reach {
     /// On every side, by half its width, straight on along its tangents at the edge. So a node that slides past the edge of its facet
     /// within a step is still at right angles to the point it presses on. The pair of forces then has no moment.
     Beyond,
+    /// So, but not on to the next facet at the kinks of a smooth surface, of sides that were straight.
+    Own,
 }
 
 /// Projects `x` on `facet`, whose nodes are at `position`.
@@ -41,7 +43,7 @@ pub fn project<'a, const D: usize>(
     let patch = Patch::new(facet, position);
     let xi = patch.closest(x);
     let mut at = patch.at(&xi);
-    if reach == Reach::Beyond {
+    if reach != Reach::Facet {
         // Only at an edge is there a way to go on; inside, the distance is at right angles to the tangents already.
         let foot = at.foot(x);
         let straight = Domain::of(facet.kind).reached([xi[0] + foot[0], xi[1] + foot[1]]);

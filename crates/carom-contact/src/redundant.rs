@@ -14,6 +14,9 @@ impl<const D: usize> ContactModel<D> {
             candidates[k].redundant = match c.site {
                 Site::Node(node) => self.is_second_side(&c, node, position, candidates),
                 Site::Corner(corner) => self.is_at_node(&c, corner, position, candidates),
+                // The facet that the node faces anyway.
+                Site::Second(node) => find(candidates, c.pair, Site::Node(node))
+                    .is_some_and(|first| candidates[first].facet == c.facet),
                 Site::Facet(_) | Site::Edge(_) => self.is_said_before(k, position, candidates),
                 Site::Multiplier(..) | Site::Crossing(..) | Site::Between(..) => false,
             };

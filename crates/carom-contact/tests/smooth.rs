@@ -303,3 +303,22 @@ fn no_node_that_presses_into_a_valley_or_a_hill_is_missed() {
         }
     }
 }
+
+/// A straight side that has bent: where nothing is smoothed.
+#[test]
+fn at_a_concave_kink_a_node_goes_on_to_the_next_facet_or_stays_with_its_own() {
+    let scene =
+        smooth(&generate::grid([0.0; 2], [4.0, 1.0], [4, 1]).expect("valid"), |x| x - Vector2::new(2.0, 1.0));
+    let bent = |x: &Vector2| Vector2::new(x[0], x[1] + 0.2 * x[0].abs());
+    let nodes: Vec<Vector2> = scene.reference.iter().map(bent).collect();
+    let own = scene.facet(&nodes, &Vector2::new(-0.5, 0.1));
+    let x = Vector2::new(0.3, 0.1);
+    let at = |n: u32| if n == scene.probe { x } else { nodes[n as usize] };
+    for (stays, slope) in [(false, 0.2), (true, -0.2)] {
+        let candidate = Candidate { stays, ..Candidate::at_node(0, scene.probe, Some(own)) };
+        let contact = scene.model.evaluate(&candidate, &at);
+        let normal = Vector2::new(-slope, 1.0).normalize();
+        assert!((row(&contact.frame, 0) - normal).norm() < 1e-15, "{:?}", contact.frame);
+        assert!((contact.gap - normal.dot(&x)).abs() < 1e-15, "{:e}", contact.gap);
+    }
+}

@@ -267,7 +267,7 @@ fn describe<'py, const D: usize>(
     let named = planted.candidates().iter().map(number);
     out.set_item("pair", PyArray1::from_iter(py, named))?;
     let node = |site: Site| match site {
-        Site::Node(node) | Site::Multiplier(node, _) => {
+        Site::Node(node) | Site::Multiplier(node, _) | Site::Second(node) => {
             planted.callers_node(node as usize).map_or(-1, i64::from)
         }
         _ => -1,

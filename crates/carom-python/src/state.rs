@@ -70,7 +70,7 @@ fn set_contacts<const D: usize>(
 fn numbers_of<const D: usize>(contact: &ContactModel<D>, reaction: &Reaction<D>) -> [i64; 5] {
     let number = |n: u32| number_of(contact, reaction.pair, n);
     match reaction.site {
-        Site::Node(n) => [0, number(n), -1, -1, -1],
+        Site::Node(n) | Site::Second(n) => [0, number(n), -1, -1, -1],
         Site::Crossing([a, b], [c, d]) => [1, number(a), number(b), number(c), number(d)],
         Site::Facet(_) => [2, -1, -1, -1, -1],
         Site::Edge([a, b]) => [2, number(a), number(b), -1, -1],

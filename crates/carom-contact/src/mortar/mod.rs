@@ -217,7 +217,8 @@ impl<const D: usize> ContactModel<D> {
 impl<const D: usize> Mortar<D> {
     /// A candidate where it was found; none if it was not found here.
     fn found(&self, candidate: &Candidate) -> Option<&Contact<D>> {
-        self.found.binary_search_by_key(candidate, |(c, _)| *c).ok().map(|k| &self.found[k].1)
+        let found = self.found.binary_search_by_key(&candidate.key(), |(c, _)| c.key());
+        found.ok().map(|k| &self.found[k].1)
     }
 
     /// The facing facets of a pair.

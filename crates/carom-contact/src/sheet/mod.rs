@@ -141,7 +141,7 @@ impl Sheet {
             let falls = falling(&controls, &xi, &at);
             let across = |&(side, fraction): &(usize, f64)| {
                 let (next, other) = tile.neighbours[side]?;
-                let may = reach == Reach::Beyond || own.contains(&next);
+                let may = reach != Reach::Facet || own.contains(&next);
                 (may && !visited.contains(&next)).then_some((next, other as usize, 1.0 - fraction))
             };
             match falls.iter().find_map(across) {
@@ -151,7 +151,7 @@ impl Sheet {
                 }
                 None => {
                     let is_open = |&(side, _): &(usize, f64)| tile.neighbours[side].is_none();
-                    let goes_on = reach == Reach::Beyond && falls.iter().any(is_open);
+                    let goes_on = reach != Reach::Facet && falls.iter().any(is_open);
                     return foot_at(x, &controls, tile, (xi, at), goes_on);
                 }
             }

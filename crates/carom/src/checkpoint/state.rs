@@ -91,7 +91,7 @@ const PREFIX: &str = "state/reactions";
 
 /// A site as four numbers: the nodes of two edges, or one node or corner four times; of a multiplier its node twice, its side, and none; of
 /// a point between nodes these, its number, and none; of what is before a round obstacle the nodes of an edge, or the number of a facet twice, and twice
-/// none.
+/// none; of a node before a second facet that, and three times none.
 fn to_nodes(site: Site) -> [u32; 4] {
     match site {
         Site::Node(n) | Site::Corner(n) => [n; 4],
@@ -100,6 +100,7 @@ fn to_nodes(site: Site) -> [u32; 4] {
         Site::Facet(f) => [f, f, u32::MAX, u32::MAX],
         Site::Edge([a, b]) => [a, b, u32::MAX, u32::MAX],
         Site::Between([a, b], point) => [a, b, point, u32::MAX],
+        Site::Second(n) => [n, u32::MAX, u32::MAX, u32::MAX],
     }
 }
 
@@ -111,6 +112,9 @@ fn to_site<const D: usize>(assembly: &Assembly<D>, pair: u32, [a, b, c, d]: [u32
         Target::Obstacle(o) => contact.obstacles[o].has_corner(*n),
         Target::Surface(_) => false,
     };
+    if [b, c, d] == [u32::MAX; 3] {
+        return is_node(&a).then_some(Site::Second(a));
+    }
     if [c, d] == [u32::MAX; 2] {
         let site = if a == b { Site::Facet(a) } else { Site::Edge([a, b]) };
         return contact.has_between_nodes(pair as usize, site).then_some(site);

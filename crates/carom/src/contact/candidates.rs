@@ -21,6 +21,8 @@ pub(crate) struct Finder<const D: usize> {
     pub found: Vec<Candidate>,
     /// Those of the step that say what no other does, as the measure has shown, or that arrive, where velocities are ruled; ascending.
     pub(super) needed: Vec<(u32, Site)>,
+    /// How often the step has been repeated.
+    repetition: usize,
     /// Whether the last step has looked at its end for what it did not find.
     has_looked: bool,
     pub(super) missed: Vec<Candidate>,
@@ -52,6 +54,7 @@ impl<const D: usize> Finder<D> {
         let path = Path { start: &start, end: &end, margin };
         let (assembly, candidates) = (given.assembly, &mut active.candidates);
         let contact = &assembly.contact;
+        self.repetition = repetition;
         let Self { search, asleep, .. } = self;
         let counts = |pair: &Pair| !is_asleep(asleep, pair) && !at_rest.are_still(pair);
         if at_rest.is_everything() {
@@ -84,6 +87,13 @@ impl<const D: usize> Finder<D> {
                 Err(k) => candidates.insert(k, bond),
             }
         }
+        if repetition > 0 {
+            keep_both_facets(&self.found, candidates);
+        }
+        // A second facet that is the first one says nothing, and may not be the one that is missed.
+        candidates.retain(|c| !(c.redundant && matches!(c.site, Site::Second(_))));
+        // In load steps a node at a kink goes on to the other facet, in others it is kept out of both.
+        candidates.iter_mut().for_each(|c| c.stays = !given.interval.map.is_static());
         self.found.clone_from(candidates);
         self.has_looked = false;
     }
@@ -129,10 +139,41 @@ impl<const D: usize> Finder<D> {
         let counts = |pair: &Pair| !is_asleep(asleep, pair) && !at_rest.are_still(pair);
         contact.detect_node_by_node(counts, &at_end, search, missed);
         assembly.contact.detect_mortar(&at_end, missed_mortar, missed);
-        missed.retain(|m| found.binary_search_by_key(&m.key(), Candidate::key).is_err());
+        // Two facets may change places from one attempt at a step to the next. In space rows of faces that lie flush on one another would say
+        // the same many times.
+        let may_have_second = D == 2 && !interval.map.is_static() && self.repetition < CONTROL.second_facets;
+        let known_as = |key| found.binary_search_by_key(&key, Candidate::key).ok().map(|k| &found[k]);
+        for m in &mut *missed {
+            if let (Site::Node(node), Some(first)) = (m.site, known_as(m.key()))
+                && may_have_second
+                && first.facet != m.facet
+                && contact.is_beside(first, &end)
+            {
+                (m.site, m.stays) = (Site::Second(node), true);
+            }
+        }
+        missed.retain(|m| known_as(m.key()).is_none());
+        missed.sort_unstable();
         assembly.contact.evaluate_all(missed, &end, missed_mortar, missed_contacts);
-        let gaps = missed.iter().zip(&*missed_contacts).map(|(m, c)| c.gap - given.interference(m.key())[1]);
-        let missed_one = gaps.into_iter().any(|gap| gap < -assembly.round_off());
+        let mut missed_one = false;
+        let mut gaps = missed_contacts.iter().map(|c| c.gap);
+        missed.retain(|m| {
+            let Some(gap) = gaps.next() else { return true };
+            // On a smooth target a facet that is not the one it was is no second one.
+            let first = match m.site {
+                Site::Second(node) => known_as((m.pair, Site::Node(node))),
+                _ => None,
+            };
+            let other = first.map(|first| assembly.contact.evaluate(first, &end).gap);
+            let least = given.interference(m.key())[1] + other.unwrap_or(0.0).min(0.0);
+            // Where motions are ruled, gaps are as good as the way of a step is straight.
+            let is_ruled = first.is_none() || given.condition_of(m.pair).rules_gaps();
+            let round_off = if is_ruled { assembly.round_off() } else { closed };
+            let is_inside = gap < least - round_off;
+            missed_one |= is_inside;
+            // What nodes are not behind is a facet of a convex corner, which either of both keeps out of.
+            is_inside || first.is_none()
+        });
         let known = needed.len();
         // In load steps both would rule a turn that nothing resists: coarse fits of round parts did not converge.
         let is_static = interval.map.is_static();
@@ -167,7 +208,10 @@ impl<const D: usize> Finder<D> {
         if !self.has_looked || pairs.have_mortar() {
             return None;
         }
-        Some(self.found.iter().filter_map(|c| Some((c.pair, c.node()?))).collect())
+        let mut suspects: Vec<_> = self.found.iter().filter_map(|c| Some((c.pair, c.node()?))).collect();
+        suspects.sort_unstable();
+        suspects.dedup();
+        Some(suspects)
     }
 
     /// Whether candidates that nobody had found would have kept out what the measure of the step has found inside. If so, they are searched
@@ -217,6 +261,20 @@ impl<const D: usize> Finder<D> {
         let Self { search, missed, .. } = self;
         given.assembly.contact.detect_itself(body, &Path::resting(position, reach), search, missed);
         !self.missed.is_empty()
+    }
+}
+
+/// Lets nodes that had a second facet in the last attempt at a step have both again: one that now faces the second of them has the first one as its second.
+fn keep_both_facets(found: &[Candidate], candidates: &mut [Candidate]) {
+    for second in candidates.iter_mut().filter(|c| c.redundant && matches!(c.site, Site::Second(_))) {
+        let facet_of = |site| {
+            let known = found.binary_search_by_key(&(second.pair, site), Candidate::key);
+            known.ok().and_then(|k| found[k].facet)
+        };
+        let both = [second.node().and_then(|node| facet_of(Site::Node(node))), facet_of(second.site)];
+        if let Some(other) = both.into_iter().flatten().find(|&other| Some(other) != second.facet) {
+            (second.facet, second.redundant) = (Some(other), false);
+        }
     }
 }
 

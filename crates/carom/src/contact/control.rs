@@ -5,6 +5,8 @@
 pub(super) struct Control {
     /// By how much the margin grows for mortar pairs with every repetition of a search.
     pub widening: f64,
+    /// Attempts at a step that may find second facets of nodes: beyond these it ends with what it has.
+    pub second_facets: usize,
     /// A contact of which less than this fraction of the normal is free has nothing to move.
     pub unresponsive: f64,
     /// A node this deep inside its target, in sizes of the smaller body, is more than touching it.
@@ -70,6 +72,7 @@ pub(super) struct Control {
 /// The thresholds of every run.
 pub(super) const CONTROL: Control = Control {
     widening: 4.0,
+    second_facets: 7,
     unresponsive: 1e-6,
     inside: 1e-6,
     closed: 1e-9,

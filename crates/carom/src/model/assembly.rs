@@ -326,7 +326,7 @@ impl<const D: usize> Assembly<D> {
     #[inline]
     #[must_use]
     pub fn can_slide(&self, candidate: &Candidate) -> bool {
-        !matches!(candidate.site, Site::Node(node) if self.on_axis.binary_search(&node).is_ok())
+        !matches!(candidate.site, Site::Node(node) | Site::Second(node) if self.on_axis.binary_search(&node).is_ok())
     }
 
     /// The body of a node and its number in that; none if it is the position of an obstacle.

@@ -53,7 +53,7 @@ impl<const D: usize> Reaction<D> {
     /// The candidate that it was.
     #[must_use]
     pub fn candidate(&self) -> Candidate {
-        Candidate { pair: self.pair, site: self.site, facet: self.facet, redundant: false }
+        Candidate { pair: self.pair, site: self.site, facet: self.facet, redundant: false, stays: false }
     }
 
     /// The source node; of an edge or a facet the one that takes most of the reaction.
@@ -61,7 +61,7 @@ impl<const D: usize> Reaction<D> {
     pub fn node(&self) -> u32 {
         let nearest = || self.contact.sources().max_by(|(_, a), (_, b)| a.total_cmp(b));
         match self.site {
-            Site::Node(node) | Site::Multiplier(node, _) => node,
+            Site::Node(node) | Site::Multiplier(node, _) | Site::Second(node) => node,
             _ => nearest().map_or(u32::MAX, |(node, _)| node as u32),
         }
     }
