@@ -262,7 +262,13 @@ impl<const D: usize> Body<D> for RigidBody<D> {
     }
 
     fn linearise(&mut self, guess: &Guess<'_, D>, tangent: &Tangent<'_, D>) -> Result<(), StepError> {
-        self.hold_back(guess, tangent);
+        if self.equation.is_none() {
+            self.hold_back(guess, tangent);
+            return Ok(());
+        }
+        // Steps in time may go on as load steps do: there its inertia resists.
+        self.renew(guess, false)?;
+        self.compliance = self.compliance.map(|part| part / (1.0 + tangent.held_back));
         Ok(())
     }
 
