@@ -6,13 +6,16 @@ computed here with NumPy alone, from the case and the stored states. docs/audit.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from os import PathLike
 from pathlib import Path
 
 import numpy as np
 
+from carom.auditing.bodies.code import Code
 from carom.auditing.checks.believed import leave_rows
 from carom.auditing.checks.case import check_files, check_materials, check_mesh
+from carom.auditing.checks.codes import leave_codes
 from carom.auditing.checks.events import EventChecks
 from carom.auditing.checks.ledger import LedgerChecks
 from carom.auditing.checks.momenta import MomentumChecks
@@ -30,7 +33,7 @@ from carom.errors import InputError
 __all__ = ["Audit", "Check", "Unchecked", "audit"]
 
 
-def audit(directory: str | PathLike[str]) -> Audit:
+def audit(directory: str | PathLike[str], *, bodies: Sequence[Code] = ()) -> Audit:
     """Check the results of a run.
 
     Parameters
@@ -39,14 +42,17 @@ def audit(directory: str | PathLike[str]) -> Audit:
         A results directory, or the `Result` of one. With ``output.audit = true`` in its case the
         equations of the stored steps are checked, without it the states at output times and the
         books.
+    bodies
+        Every `carom.ForeignBody` of the run again, whose law no file holds. What depends on that of
+        one which is not given cannot be checked, and is said not to be.
 
     Raises
     ------
     InputError
         The directory holds no results of a run that has ended, or of a kind that the auditor does
-        not know.
+        not know; or a body is none of the run.
     """
-    return audit_files(Files(Path(directory)))
+    return audit_files(Files(Path(directory), bodies))
 
 
 def audit_files(files: Files) -> Audit:
@@ -74,6 +80,8 @@ def _check(files: Files, findings: Findings) -> None:
         own = scales[stage_at(parts, frame.time)]
         own.include(frame.displacement, frame.velocity, frame.time)
         frames.append(frame.time)
+    for part, own in zip(parts, scales, strict=True):
+        own.believe(part.rows.history)
     for own in scales:
         own.share(scales)
     certified = sum(float(part.rows.certified.sum()) for part in parts)
@@ -94,6 +102,7 @@ def _check(files: Files, findings: Findings) -> None:
     rows = Rows.joined([part.rows for part in parts], files.history, files.summary)
     SummaryChecks(parts, scales[-1], findings, rows, files.summary).all()
     check_warnings(models, files.summary, findings)
+    leave_codes(models[0], findings)
     contacts = EventChecks(
         list(zip(parts, scales, strict=True)),
         findings,

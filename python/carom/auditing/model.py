@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator
+from collections.abc import Collection, Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property, partial
+from types import MappingProxyType
 
 import numpy as np
 
 from carom.auditing.arrays import Array, Indices
 from carom.auditing.bodies.body import AuditBody
+from carom.auditing.bodies.code import Code
+from carom.auditing.bodies.foreign import ForeignBody
 from carom.auditing.bodies.mass import NoMassInsideError
 from carom.auditing.bodies.places import Attached
 from carom.auditing.contact.interference import Interference
@@ -67,6 +70,8 @@ class AuditModel:
         VTK's types of the cells, by body.
     touching_themselves
         Names of the bodies that have touched themselves.
+    codes
+        What other codes say of their bodies, by name: of all that the case has.
 
     Raises
     ------
@@ -83,6 +88,7 @@ class AuditModel:
         types: list[Indices],
         *,
         touching_themselves: Collection[str] = (),
+        codes: Mapping[str, Code] = MappingProxyType({}),
     ) -> None:
         self.scenario, self.stage = scenario, stage
         self.dimension = scenario.dimension
@@ -101,7 +107,7 @@ class AuditModel:
         self._read_scheme()
         given = self.analysis.gravity
         self.gravity = np.zeros(self.dimension) if given is None else np.array(given)
-        self.bodies = list(self._build_bodies(cells, types))
+        self.bodies = list(self._build_bodies(cells, types, codes))
         if self.static:
             for body in self.bodies:
                 body.weigh_all_nodes()
@@ -149,6 +155,16 @@ class AuditModel:
             self.theta, self.xi = 0.5, 0.5
             if isinstance(scheme, Theta):
                 self.theta, self.xi = scheme.theta, scheme.xi
+
+    @property
+    def known(self) -> list[AuditBody]:
+        """Bodies whose law and mass are known: all, unless another code has them for itself."""
+        return [body for body in self.bodies if body.known]
+
+    @property
+    def whole(self) -> bool:
+        """Whether all bodies are known, and so are sums over them."""
+        return len(self.known) == len(self.bodies)
 
     @property
     def faceted(self) -> bool:
@@ -220,7 +236,8 @@ class AuditModel:
 
     def driven(self, body: AuditBody) -> bool:
         """Return whether anything acts on a body but gravity, damping and contact."""
-        return self.connected(body) or self.loaded(body) or self.supported(body)
+        outer = self.connected(body) or self.loaded(body) or self.supported(body)
+        return outer or body.anchored
 
     @property
     def coheres(self) -> bool:
@@ -340,14 +357,19 @@ class AuditModel:
             tracks.append((track.name, int(distance.argmin()) + body.span.start))
         return tracks
 
-    def _build_bodies(self, cells: list[Indices], types: list[Indices]) -> Iterator[AuditBody]:
+    def _build_bodies(
+        self, cells: list[Indices], types: list[Indices], codes: Mapping[str, Code]
+    ) -> Iterator[AuditBody]:
         first = 0
         for entry, nodes, own in zip(self.scenario.bodies, cells, types, strict=True):
-            if isinstance(entry, ForeignEntry):
-                raise InputError("cannot audit a body of another code, whose law no file holds")
             last = int(nodes.max()) + 1
             if int(nodes.min()) != first or last > len(self.points):
                 raise InputError(f"body {entry.name!r}: the mesh is not numbered body after body")
+            if isinstance(entry, ForeignEntry):
+                given = (own, nodes - first, self.points[first:last])
+                yield ForeignBody(entry, codes[entry.name], cells=given, first_node=first)
+                first = last
+                continue
             make = partial(
                 AuditBody,
                 entry,

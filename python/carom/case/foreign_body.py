@@ -8,6 +8,9 @@ from pydantic import Field, PrivateAttr
 
 from carom.case.description import Description, Name, Positive
 
+CONTACT_SET = "contact"
+"""The facets that may touch others, among the sets of a scenario."""
+
 
 class GivenMesh(Description):
     """The mesh of a body of another code, which comes along with it."""

@@ -9,7 +9,7 @@ import numpy as np
 import scipy.sparse as sp
 from numpy.typing import ArrayLike, NDArray
 
-from carom.case.foreign_body import ForeignEntry
+from carom.case.foreign_body import CONTACT_SET, ForeignEntry
 from carom.contact.surface import Surface
 from carom.errors import InputError
 from carom.friction.arrays import matrix, numbers, shown
@@ -17,9 +17,6 @@ from carom.mesh_file.arrays import MeshArrays, Refused
 from carom.mesh_file.cells import KINDS
 from carom.mesh_file.upright import upright
 from carom.messages import known
-
-CONTACT_SET = "contact"
-"""The facets that may touch others, among the sets of a scenario."""
 
 Entries = tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.float64]]
 """Rows, columns and values of a sparse matrix."""

@@ -16,11 +16,13 @@ from carom.auditing import audit_files
 from carom.auditing.records.files import Files
 from carom.auditing.report import Findings
 from carom.auditing.steps.step import Step
+from foreign_case import foreign_bodies, with_bodies
 
 SPARSE = {"output.history_every": 0.01}
 HALVED = {"analysis.newton.max_iterations": 6}
 EVERYTHING = {"output.fields_every": 2e-3, "analysis.end_time": 0.06}
 SMALL = {"output.fields_every": 0.1, "bodies.1.mesh.divisions": 4}
+TRIANGLES = {"bodies.0.mesh.cell": "tri3", "bodies.1.mesh.cell": "tri3"}
 
 RUNS = {
     "gap": ("gap", "theta", {}),
@@ -28,8 +30,11 @@ RUNS = {
     "sparse": ("gap", "theta", SPARSE),
     "halved": ("gap", "conserving", HALVED),
     "everything": ("gap", "theta", EVERYTHING),
+    "foreign": ("gap", "conserving", TRIANGLES),
 }
-TAMPERED = ("gap", "massless", "sparse", "halved")
+"""Condition, scheme and changes of runs; of one the second body is of a code that is not there."""
+
+TAMPERED = ("gap", "massless", "sparse", "halved", "foreign")
 
 COUNTS = {
     *("steps", "dofs", "newton_iterations", "factorisations", "retried_steps", "contacts"),
@@ -74,7 +79,10 @@ def read(tmp_path_factory):
         if name not in done:
             condition, scheme, changes = RUNS[name]
             out = tmp_path_factory.mktemp(name)
-            carom.run(scenario(condition, scheme, **{**SMALL, **changes}), out=out)
+            case = scenario(condition, scheme, **{**SMALL, **changes})
+            if name == "foreign":
+                case = with_bodies(case, [case.bodies[0], foreign_bodies(case)[1]])
+            carom.run(case, out=out)
             done[name] = InMemory(Files(out))
             assert not refuted(done[name])
         return done[name]

@@ -8,7 +8,7 @@ import numpy as np
 
 from carom.auditing.arrays import Array, Indices, Mask
 from carom.auditing.bodies.mass import affine_weights
-from carom.case.body import DescribedBody, RigidBody
+from carom.case.body import AnyBody, RigidBody
 from carom.case.mesh import Ball as BallMesh
 from carom.case.mesh import Disc
 
@@ -39,7 +39,7 @@ class Ball:
         self._shares = shares
 
     @classmethod
-    def of(cls, entry: DescribedBody, points: Array, surface: Indices) -> Ball | None:
+    def of(cls, entry: AnyBody, points: Array, surface: Indices) -> Ball | None:
         """Return that of a body; None of what is its mesh."""
         if not isinstance(entry, RigidBody) or not entry.round:
             return None

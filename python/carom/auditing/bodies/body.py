@@ -13,6 +13,8 @@ from carom.auditing.arrays import (
     Mask,
     einsum,
     inertia,
+    turned,
+    turning_axes,
 )
 from carom.auditing.bodies.ball import Ball
 from carom.auditing.bodies.growing import Growth
@@ -23,10 +25,11 @@ from carom.auditing.bodies.vibrations import MOST_UNKNOWNS, Vibrations
 from carom.auditing.materials.composition import Composition
 from carom.auditing.materials.dilatation import MeanDilatation, Response
 from carom.auditing.mesh.cells import Cells
-from carom.auditing.mesh.drawn import drawn, nodes_of, unknown
+from carom.auditing.mesh.drawn import Drawn, drawn, nodes_of, unknown
 from carom.auditing.mesh.facets import Facets
 from carom.auditing.mesh.stiffness import reference_stiffness
-from carom.case.body import DescribedBody, ReducedBody, RigidBody
+from carom.case.body import AnyBody, Body, ReducedBody, RigidBody
+from carom.case.foreign_body import ForeignEntry
 from carom.case.material import Material
 from carom.case.mesh import Rectangle
 from carom.case.point_mass import PointMass
@@ -66,9 +69,18 @@ class AuditBody(MovingBody):
         Masses at points of it.
     """
 
+    known = True
+    """Whether anything says what its law and its mass are."""
+
+    divides = False
+    """Whether the force of steps that conserve is a quotient of energies of the body: `doubt`."""
+
+    anchored = False
+    """Whether its law may act on it as a whole, as what holds or loads it does."""
+
     def __init__(
         self,
-        entry: DescribedBody,
+        entry: AnyBody,
         materials: Mapping[str, Material],
         *,
         types: Indices,
@@ -86,7 +98,7 @@ class AuditBody(MovingBody):
         """Whether its nodes move as one."""
         self.modes = entry.modes if isinstance(entry, ReducedBody) else None
         """Modes of a reduced body beside the shapes of its contact surface."""
-        self.drawn = drawn(entry, points.shape[1])
+        self.drawn = self._drawn()
         """Its mesh as the case draws it."""
         self.revolution = entry.hypothesis == "axisymmetric"
         """Whether it is one of revolution around x = 0."""
@@ -98,17 +110,17 @@ class AuditBody(MovingBody):
         """Its materials, cell by cell."""
         self.growth = Growth.of(entry, large=self.law.objective)
         """How it grows."""
-        dilates = not isinstance(entry, RigidBody) and entry.formulation != "standard"
+        dilates = isinstance(entry, Body | ReducedBody) and entry.formulation != "standard"
         self.masters = _masters(entry, points)
         """For every node the one that it moves with, itself as a rule, [node_count]."""
         self.images: Indices = np.flatnonzero(self.masters != np.arange(len(points)))
         """Nodes that move with another: of a body that repeats itself."""
         self.turns = self.law.objective and not self.images.size and not self.revolution
         """Whether it can turn without storing energy."""
-        size = float(np.linalg.norm(np.ptp(points, axis=0)))
-        on_axis = points[:, 0] <= ON_THE_AXIS * size
-        self.on_axis: Indices = np.flatnonzero(on_axis & self.revolution)
+        self.on_axis = self._on_axis()
         """Nodes on the axis of a body of revolution, which stay there."""
+        self.fixed = self._fixed()
+        """Which components of nodes never move, whatever supports it, [node_count, D]."""
         self.response: Response = self.law
         """What stresses its deformation has."""
         if dilates:
@@ -129,9 +141,26 @@ class AuditBody(MovingBody):
         self._weigh(masses)
         self._stiffen(dilates=dilates)
 
+    def _drawn(self) -> Drawn:
+        """Return its mesh as the case draws it."""
+        assert not isinstance(self._entry, ForeignEntry), "that draws itself"
+        return drawn(self._entry, self.points.shape[1])
+
+    def _on_axis(self) -> Indices:
+        """Return the nodes on the axis of a body of revolution."""
+        size = float(np.linalg.norm(np.ptp(self.points, axis=0)))
+        return np.flatnonzero((self.points[:, 0] <= ON_THE_AXIS * size) & self.revolution)
+
+    def _fixed(self) -> Mask:
+        """Return which components of nodes never move, shape [node_count, D]."""
+        fixed = np.zeros(self.points.shape, dtype=bool)
+        fixed[self.on_axis, 0] = True
+        return fixed
+
     def _weigh(self, masses: Sequence[PointMass]) -> None:
         """Find its mass, with masses at points of it."""
         entry = self._entry
+        assert not isinstance(entry, ForeignEntry), "that weighs itself"
         self.mass = Mass(
             self.cells,
             self.points,
@@ -194,6 +223,23 @@ class AuditBody(MovingBody):
         return self.rigid or self.modes is not None
 
     @property
+    def carries_waves(self) -> bool:
+        """Whether its law says how fast waves run in it."""
+        return not self.rigid
+
+    @property
+    def blends(self) -> bool:
+        """Whether its stresses are blended where steps blend any."""
+        return not self.moves_as_a_whole
+
+    def initial_velocity(self) -> Array:
+        """Return the velocities of its nodes at the start of a run [m/s], shape [node_count, D]."""
+        spin, velocity = self._entry.spin, self._entry.velocity
+        about = np.zeros(turning_axes(self.dimension)) if spin is None else np.atleast_1d(spin)
+        wanted = turned(self.arms(0.0 * self.points), about)
+        return wanted if velocity is None else wanted + np.array(velocity)
+
+    @property
     def damping(self) -> float:
         """That of a reduced body in terms of its stiffness [s]."""
         return float(self.law.stiffness_damping.max())
@@ -250,7 +296,7 @@ class AuditBody(MovingBody):
         moves[self.masters] = True
         moves[self.massless] = False
         moves &= ~held
-        scale = np.where(moves, np.abs(self.folded(self.mass.nodal))[:, None], 1.0)
+        scale = np.where(moves, self.folded(self.mass.sizes)[:, None], 1.0)
         rest = self.folded(impulse) * moves
         velocity, ready = np.zeros_like(rest), rest / scale
         along, power = ready, float((rest * ready).sum())
@@ -278,6 +324,12 @@ class AuditBody(MovingBody):
             local = self._axes(u).own[self.cells.nodes]
             return 0.5 * float(einsum("cai,caibk,cbk->", local, self._stiffness, local))
         return self._integral(self.response.energy, u, grown)
+
+    def slope(self, u: Array, energy: float) -> float:
+        """Return by how much the strain energy changes where all of u changes by 1 m [N]."""
+        del u
+        # E ≈ ½ k e², so that an error of e changes it by √(2 E k) δ.
+        return float(np.sqrt(2.0 * max(energy, 0.0) * float(self.row_stiffness.sum())))
 
     def plastic_work(self, u: Array, grown: float) -> float:
         """Return the plastic work of a step to u [J]."""
@@ -325,6 +377,10 @@ class AuditBody(MovingBody):
         f0, f1 = (self._elastic(u, grown) for u in (u0, u1))
         stress = self.response.discrete_stress(f0, f1)
         return self.cells.divergence(self.growth.factor(grown, 2) * stress)
+
+    def doubt(self, u0: Array, u1: Array, energy: float) -> Array:
+        """Return how far that force may be off [N] by as much of an energy [J], [node_count]."""
+        raise NotImplementedError("that of stresses is no quotient of energies")
 
     def difference_force(self, u0: Array, u1: Array) -> Array:
         """Return the force [N] of the difference of the stresses at u₁ and u₀.
@@ -379,7 +435,7 @@ def _tensor(given: float | tuple[float, ...] | tuple[tuple[float, ...], ...]) ->
     return table.reshape(1, 1) if table.ndim == 0 else table
 
 
-def _density(entry: DescribedBody, law: Composition, cells: Cells, ball: Ball | None) -> Array:
+def _density(entry: AnyBody, law: Composition, cells: Cells, ball: Ball | None) -> Array:
     """Return the density of each cell [kg/m³].
 
     The mass of a rigid body may be given, and cells of one that is round have that of the ball.
@@ -394,7 +450,7 @@ def _density(entry: DescribedBody, law: Composition, cells: Cells, ball: Ball | 
     return np.full(len(cells.nodes), entry.mass / volume)
 
 
-def _masters(entry: DescribedBody, points: Array) -> Indices:
+def _masters(entry: AnyBody, points: Array) -> Indices:
     """Return the node that each moves with: on the right side of what repeats itself another."""
     masters = np.arange(len(points))
     if not isinstance(entry.mesh, Rectangle) or not entry.mesh.periodic:

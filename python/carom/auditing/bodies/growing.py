@@ -8,7 +8,7 @@ import numpy as np
 
 from carom.auditing.arrays import Array
 from carom.auditing.functions.signals import AuditSignal
-from carom.case.body import Body, DescribedBody
+from carom.case.body import AnyBody, Body
 
 
 @dataclass(frozen=True)
@@ -30,7 +30,7 @@ class Growth:
     large: bool
 
     @classmethod
-    def of(cls, entry: DescribedBody, *, large: bool) -> Growth:
+    def of(cls, entry: AnyBody, *, large: bool) -> Growth:
         """Return that of a body, whose law is one of large displacements or not."""
         return cls(AuditSignal(entry.growth if isinstance(entry, Body) else None), large)
 

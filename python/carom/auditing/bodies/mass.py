@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from carom.auditing.arrays import Array, Indices, einsum
+from carom.auditing.bodies.mass_matrix import MassMatrix
 from carom.auditing.mesh.cells import Cells
 from carom.auditing.mesh.facets import Facets
 
@@ -49,7 +50,7 @@ class NoMassInsideError(Exception):
     """What would be without mass is all there is near some node."""
 
 
-class Mass:
+class Mass(MassMatrix):
     """Multiplication by the mass matrix of a body.
 
     Where nodes are to have no mass, their velocity is taken to follow those of massive nodes near
@@ -120,15 +121,11 @@ class Mass:
         """Return M v of nodal vectors, shape [node_count, D]."""
         return self._follow.transposed(self._all_nodes(self._follow.extended(v)))
 
-    def mean(self, v: Array) -> Array:
-        """Return the mean of nodal vectors by mass, shape [D].
+    def resultant(self, values: Array) -> Array:
+        """Return the sum of vectors of nodes, shape [D].
 
         In a body of revolution what is radial cancels around the axis.
         """
-        return self.resultant(self.nodal[:, None] * v) / self.total
-
-    def resultant(self, values: Array) -> Array:
-        """Return the sum of vectors of nodes, shape [D], without what cancels around an axis."""
         total: Array = values.sum(axis=0)
         if self._cells.revolution:
             total[0] = 0.0

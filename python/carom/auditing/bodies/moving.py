@@ -15,7 +15,7 @@ from carom.auditing.arrays import (
     turned,
     turning_axes,
 )
-from carom.auditing.bodies.mass import Mass
+from carom.auditing.bodies.mass_matrix import MassMatrix
 from carom.auditing.bodies.reduced import MeanAxes
 
 KINETIC_PARTS = ("translation", "rotation", "vibration")
@@ -31,7 +31,7 @@ class MovingBody:
     dimension: int
     """D."""
 
-    mass: Mass
+    mass: MassMatrix
     """Its mass."""
 
     massless: Indices

@@ -10,7 +10,7 @@ import numpy as np
 
 from carom.auditing.arrays import Array, Indices
 from carom.auditing.bodies.mass import affine_weights
-from carom.case.body import DescribedBody, RigidBody
+from carom.case.body import AnyBody, RigidBody
 
 
 class Attached(Protocol):
@@ -46,7 +46,7 @@ class Place:
     at: Array
 
 
-def place_on(entry: DescribedBody, points: Array, point: Array) -> Place:
+def place_on(entry: AnyBody, points: Array, point: Array) -> Place:
     """Return the place of a point of a body: of one that deforms its nearest node.
 
     Of a rigid body it is the mean of all nodes with the weights of least norm that have it there.

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from carom.auditing.arrays import Array, cross, inertia, nearest_rotation, solved, turned
-from carom.auditing.bodies.mass import Mass
+from carom.auditing.bodies.mass_matrix import MassMatrix
 
 
 @dataclass(frozen=True)
@@ -26,13 +26,13 @@ class MeanAxes:
         The displacements that deform it, in the frame [m], shape [node_count, D].
     """
 
-    mass: Mass
+    mass: MassMatrix
     arms: Array
     rotation: Array
     own: Array
 
     @classmethod
-    def of(cls, mass: Mass, points: Array, u: Array) -> MeanAxes:
+    def of(cls, mass: MassMatrix, points: Array, u: Array) -> MeanAxes:
         """Return that of a body with nodes at `points`, moved by u [m]."""
         arms = points - mass.mean(points)
         now = arms + u - mass.mean(u)

@@ -31,7 +31,7 @@ def check_files(path: Path, summary: Mapping[str, Any], findings: Findings) -> N
 
 def check_mesh(model: AuditModel, findings: Findings) -> None:
     """Check sizes and numbers of cells of the bodies."""
-    for body in model.bodies:
+    for body in model.known:
         tolerance = ROUND_OFF * (model.size + float(np.abs(body.points).max()))
         findings.check("mesh", body.drawn.misfit(body.points, body.outline), tolerance, body.name)
         cells = body.drawn.cell_count - len(body.cells.nodes)
@@ -55,17 +55,13 @@ def check_start(model: AuditModel, frame: Frame, scales: Scales, findings: Findi
         findings.leave("the state that the run starts from, which is that of other files")
         return
     findings.check("initial velocity", frame.displacement, 0.0, "displacement at t = 0")
-    members = zip(model.scenario.bodies, model.bodies, model.supports, strict=True)
-    for entry, body, supports in members:
-        arms = body.points - body.mass.mean(body.points)
-        spin = np.zeros(turning_axes(model.dimension)) if entry.spin is None else entry.spin
-        wanted = turned(arms, np.atleast_1d(spin))
-        if entry.velocity is not None:
-            wanted = wanted + np.array(entry.velocity)
-        wanted *= not model.static
+    for body, supports in zip(model.bodies, model.supports, strict=True):
+        if not body.known:
+            continue
+        wanted = body.initial_velocity() * (not model.static)
         wanted = _as_driven(body, supports, np.zeros_like(wanted), wanted, 0.0)
         error = frame.velocity[body.span] - wanted
-        findings.check("initial velocity", error, ROUND_OFF * scales.speed, f"{entry.name}, t = 0")
+        findings.check("initial velocity", error, ROUND_OFF * scales.speed, f"{body.name}, t = 0")
 
 
 def check_links(

@@ -322,7 +322,7 @@ class EventChecks:
         waves = {
             body.name: float(np.ptp(body.points, axis=0).max()) / body.law.wave_speed
             for body in self._model.bodies
-            if not body.rigid
+            if body.carries_waves
         }
         for pair, merge in self._merge.items():
             own = min((waves[name] for name in pair.split("|") if name in waves), default=0.0)

@@ -125,7 +125,8 @@ class MomentumChecks:
             # Reactions may act where nodes and feet are not at the same place.
             free &= ~self._touches({body.name for body in model.bodies})
         grounded = not all(model.joins_bodies(spring) for spring in model.springs)
-        grounded = grounded or any(model.loaded(b) or model.supported(b) for b in model.bodies)
+        driven = (model.loaded(b) or model.supported(b) or b.anchored for b in model.bodies)
+        grounded = grounded or any(driven)
         if not (model.conserving and turning) or damped or grounded:
             free[:] = False
         stored = rows.angular_momentum

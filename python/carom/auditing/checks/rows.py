@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from carom.auditing.arrays import AXES, Array
+from carom.auditing.arrays import AXES, Array, components
 from carom.auditing.bodies.body import AuditBody
 from carom.auditing.bodies.moving import KINETIC_PARTS
 from carom.auditing.checks.blend import LARGEST_BLEND
@@ -146,18 +146,20 @@ class RowChecks:
         supported = any(len(supports) for supports in model.supports)
         if model.stage.velocities:
             self._findings.leave("the work of giving bodies velocities when a stage starts")
-        elif not loaded:
+        elif model.whole and not loaded:
             error = beyond_pushes(model, h, h["external"] - external)
             self._check("row: external", error, off)
         stored = self._rows.momentum
-        off = SAFETY * ROUND_OFF * scales.mass * scales.speed
-        self._check("row: momentum", np.abs(stored - momentum).max(axis=1), off)
-        off = ROUND_OFF * scales.energy
-        self._check("row: kinetic", np.maximum(least - h["kinetic"], 0.0), off)
+        if all(body.mass.plain for body in model.bodies):
+            off = SAFETY * ROUND_OFF * scales.mass * scales.speed
+            self._check("row: momentum", np.abs(stored - momentum).max(axis=1), off)
+            off = ROUND_OFF * scales.energy
+            self._check("row: kinetic", np.maximum(least - h["kinetic"], 0.0), off)
         damped = any(body.law.mass_damping > 0 for body in model.bodies)
         lossy = model.massless and not model.conserving
         grounded = any(not model.joins_bodies(spring) for spring in model.springs)
         outside = bool(model.obstacles) or bool(model.gravity.any()) or loaded or supported
+        outside = outside or any(body.anchored for body in model.bodies)
         if not (outside or damped or lossy or grounded):
             newton = model.analysis.newton.tolerance
             off = SAFETY * ROUND_OFF * scales.mass * scales.speed
@@ -172,7 +174,7 @@ class RowChecks:
         dt = np.diff(self._times)
         off = ROUND_OFF * (self._scales.reach + model.size)
         for body in model.bodies:
-            if model.supported(body):
+            if model.supported(body) or not body.mass.plain:
                 continue  # What is held has the velocity that is given.
             x, v = self._rows.centre(body.name), self._rows.drift(body.name)
             mean = (1 - model.theta) * v[:-1] + model.theta * v[1:]
@@ -187,7 +189,13 @@ class RowChecks:
         single: NDArray[np.bool_] = self._rows.single[1:]
         if not self._model.jolts:
             return single
-        self._findings.leave("velocities between rows with contacts: impulses change them")
+        dimension = self._model.dimension
+        columns = (*AXES[:dimension], *components("v", dimension))
+        names = (f"{body.name}.{column}" for body in self._model.bodies for column in columns)
+        self._findings.leave(
+            "velocities between rows with contacts: impulses change them",
+            *(f"history.csv: {name}, between output times" for name in names),
+        )
         free: NDArray[np.bool_] = single & (self._history["contacts"][1:] == 0)
         return free
 
@@ -220,7 +228,7 @@ class RowChecks:
                 turns = body.rigid or body.modes is not None or model.static
                 known = known & (not held[AXES.index(axis)] and not turns)
                 off = SAFETY * off / dt + SAFETY * EPS * np.abs(v[:-1])
-                if model.blended and not light:
+                if model.blended and body.blends and not light:
                     off += self._repaid(body, node - body.span.start)
                 self._check("row: tracks", np.where(known, v[1:] - scheme, 0.0) * dt, off * dt)
 

@@ -31,9 +31,8 @@ class Supports:
 
     def __init__(self, body: AuditBody, given: Sequence[Given], *, at_rest: bool) -> None:
         self._at_rest, self._dimension, self._mean = at_rest, body.dimension, body.mass.mean
-        self.held: Mask = np.zeros(body.points.shape, dtype=bool)
+        self.held: Mask = body.fixed.copy()
         """Which components of the displacement of nodes are given, shape [node_count, D]."""
-        self.held[body.on_axis, 0] = True
         self.by: Indices = np.full(body.points.shape, -1)
         """By which support, shape [node_count, D]; −1 where by none."""
         self.anchor: Array = np.zeros(body.points.shape)

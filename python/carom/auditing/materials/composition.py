@@ -12,14 +12,14 @@ from carom.auditing.materials.laws import Law
 from carom.auditing.materials.plane_stress import PlaneStress
 from carom.auditing.materials.tensors import IDENTITY, transposed
 from carom.auditing.mesh.drawn import Drawn
-from carom.case.body import Body, DescribedBody, InitialStress, Region, RigidBody, materials_of
+from carom.case.body import AnyBody, Body, InitialStress, ReducedBody, Region, materials_of
 from carom.case.material import Damping, J2Plasticity, Material, Viscosity
 
 _Function = Callable[..., Array]
 
 
 class Composition:
-    """The materials of a body, cell by cell; a rigid body has none.
+    """The materials of a body, cell by cell; a rigid body has none, nor one of another code.
 
     Parameters
     ----------
@@ -39,7 +39,7 @@ class Composition:
     """
 
     def __init__(
-        self, entry: DescribedBody, known: Mapping[str, Material], middles: Array, mesh: Drawn
+        self, entry: AnyBody, known: Mapping[str, Material], middles: Array, mesh: Drawn
     ) -> None:
         materials = [known[name] for name in materials_of(entry)]
         stress = entry.initial_stress if isinstance(entry, Body) else None
@@ -49,11 +49,11 @@ class Composition:
         free = 3 if grows else middles.shape[1]
         self._laws = [_law(one, free, stress, sheet=sheet) for one in materials] or [Law.none()]
         self._densities = [material.density for material in materials]
-        regions = () if isinstance(entry, RigidBody) else entry.regions
+        regions = entry.regions if isinstance(entry, Body | ReducedBody) else ()
         self._of_cell = _regions(regions, middles, mesh)
         numbers = np.array([list(known).index(name) for name in materials_of(entry)] or [-1])
         self.material: Indices = numbers[self._of_cell]
-        """Number of the material of each cell among those of the case, -1 if rigid."""
+        """Number of the material of each cell among those of the case, -1 of none."""
         viscosities = [material.viscosity for material in materials] or [Viscosity()]
         self._viscosities = tuple(
             np.array([getattr(one, name) for one in viscosities]) for name in ("shear", "bulk")

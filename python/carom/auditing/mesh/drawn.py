@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Protocol
 
 import numpy as np
@@ -13,7 +13,7 @@ from carom.auditing.mesh.facets import corners_of
 from carom.case.body import DescribedBody
 from carom.case.mesh import Ball, Box, Cylinder, Disc, MeshFile, Rectangle, Ring
 from carom.errors import InputError
-from carom.mesh_file import read_body_mesh
+from carom.mesh_file import MeshArrays, read_body_mesh
 
 ON_SIDE = 1e-9
 """Nodes this close to a side, relative to its length, are on it."""
@@ -66,6 +66,11 @@ def drawn(entry: DescribedBody, dimension: int) -> Drawn:
         layers = mesh.divisions[0] * mesh.divisions[1] * mesh.divisions[2]
     ends = {"bottom": 0.0, "top": mesh.height}
     return _Round(mesh.base, mesh.axis, radii, ends, layers * _PARTS[mesh.cell])
+
+
+def given(arrays: MeshArrays) -> Drawn:
+    """Return a mesh that is there as arrays."""
+    return _Read.given(arrays)
 
 
 def nodes_of(mesh: Drawn, name: str, points: Array, outline: Indices, cells: Indices) -> Indices:
@@ -210,7 +215,7 @@ class _Upright:
 
 @dataclass(frozen=True)
 class _Read:
-    """A mesh from a file, whose nodes and cells have the numbers of the file."""
+    """A mesh that comes as arrays, whose nodes and cells have the numbers that they have there."""
 
     points: Array
     cell_count: int
@@ -228,15 +233,20 @@ class _Read:
             key=f"the mesh of body {name!r}",
         )
         move = np.zeros(dimension) if mesh.move is None else np.array(mesh.move)
+        return cls.given(replace(arrays, points=arrays.points + move))
+
+    @classmethod
+    def given(cls, arrays: MeshArrays) -> _Read:
+        """Return a mesh that is there as arrays."""
         return cls(
-            points=arrays.points + move,
+            points=arrays.points,
             cell_count=sum(len(nodes) for _, nodes in arrays.blocks),
             nodes=arrays.node_sets,
             named_facets={
                 key: {
                     frozenset(corners)
                     for facets in several
-                    for corners in corners_of(facets, dimension).tolist()
+                    for corners in corners_of(facets, arrays.points.shape[1]).tolist()
                 }
                 for key, several in arrays.facet_sets.items()
             },

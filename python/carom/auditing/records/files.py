@@ -12,7 +12,9 @@ import h5py
 import numpy as np
 
 from carom.auditing.arrays import Array, Indices
+from carom.auditing.bodies.code import Code, NoCode
 from carom.auditing.model import AuditModel
+from carom.auditing.records.codes import codes_of
 from carom.case.scenario import Scenario
 from carom.errors import InputError
 from carom.io import layout
@@ -120,14 +122,16 @@ class Files:
     ----------
     path
         The directory.
+    bodies
+        Bodies of other codes, whose law no file holds.
 
     Raises
     ------
     InputError
-        A file is missing, or is not one of carom.
+        A file is missing, or is not one of carom; or a body is not of the case.
     """
 
-    def __init__(self, path: Path) -> None:
+    def __init__(self, path: Path, bodies: Sequence[Code] = ()) -> None:
         self.path = path
         for name in _NEEDED:
             if not (path / name).exists():
@@ -135,6 +139,7 @@ class Files:
                     f"{path}: has no {name}; name a directory that `carom run` has finished"
                 )
         self.scenario = Scenario.from_toml(path / layout.CASE)
+        self._codes = codes_of(self.scenario, bodies)
         self.summary: dict[str, Any] = read_summary(path / layout.SUMMARY)
         self.history = read_history(path / layout.HISTORY)
         self.ledger = read_ledger(path / layout.LEDGER)
@@ -159,13 +164,33 @@ class Files:
         # Every body may touch itself, and few do: these alone have books for it.
         pairs = [pair["between"] for pair in self.summary["pairs"]]
         own = {a for a, b in pairs if a == b}
+        codes = self._all_codes(points, cells)
         models = [
-            AuditModel(self.scenario, stage, points, cells, kinds, touching_themselves=own)
+            AuditModel(
+                self.scenario, stage, points, cells, kinds, touching_themselves=own, codes=codes
+            )
             for stage in self.scenario.full_stages()
         ]
         for before, model in pairwise(models):
             model.before = before
         return models
+
+    def _all_codes(self, points: Array, cells: Sequence[Indices]) -> dict[str, Code]:
+        """Return the codes of all bodies that have one; no code of those that none came with."""
+        codes, facets = {}, self.facets()
+        for index, (entry, nodes) in enumerate(zip(self.scenario.bodies, cells, strict=True)):
+            if entry.kind != "foreign":
+                continue
+            first, last = int(nodes.min()), int(nodes.max()) + 1
+            touching = facets.nodes[facets.body == index] - first
+            stored = NoCode(entry.name, points[first:last], touching, nodes - first)
+            code = codes[entry.name] = self._codes.get(entry.name, stored)
+            if code.points.shape != stored.points.shape:
+                raise InputError(
+                    f"bodies: {entry.name!r} has points of shape {list(code.points.shape)}, and of "
+                    f"shape {list(stored.points.shape)} in the run; give it as it was run"
+                )
+        return codes
 
     def materials(self) -> Indices | None:
         """Return the number of the material of each cell, where the fields say it."""

@@ -28,21 +28,27 @@ def arriving(step: Step, scales: Scales) -> tuple[Mask, Mask]:
     # What holds is closed as it is, and has nothing to land on.
     ruled = ~found.massless & (found.adhesion == 0.0)
     gap, off = step.touching.start_gaps, scales.geometry(step)
-    whole = LANDED * _masses(step) / (model.theta * step.dt)
+    whole = LANDED * _masses(step, scales) / (model.theta * step.dt)
     impulse = step.dt * found.normal_force
     doubt = step.dt * scales.least_reaction(step.dt)
     perhaps = ruled & (gap > -off) & (impulse <= whole * np.maximum(gap + off, 0.0) + doubt)
     surely = ruled & (gap > off) & (impulse <= whole * (gap - off) - doubt)
+    # What is in the way where a body is not known is at most all of it.
+    unknown = [index for index, body in enumerate(model.bodies) if not body.known]
+    surely &= ~(np.isin(found.source, unknown) | np.isin(found.target, unknown))
     # A reaction that is round-off is one beside a gap, too.
     return surely, perhaps | (ruled & (np.abs(impulse) <= doubt) & (gap > off))
 
 
-def _masses(step: Step) -> Array:
+def _masses(step: Step, scales: Scales) -> Array:
     """Return the masses in the way of contacts [kg], if every node moved alone, shape [count]."""
     found, model = step.touching.pressed, step.model
     mobility = np.zeros(len(model.points))
-    for body in model.bodies:
-        mobility[body.span] = mobilities(step, body)
+    for body, mass in zip(model.bodies, scales.masses, strict=True):
+        if body.known:
+            mobility[body.span] = mobilities(step, body)
+        elif mass > 0.0:
+            mobility[body.span] = 1.0 / mass
     # Nodes may be in a stencil twice; images are what their masters are.
     yields = np.zeros(len(found))
     for nodes, weights in ((found.sources, found.shares), (found.followed, found.weights)):
@@ -57,6 +63,7 @@ def most_uncounted(model: AuditModel, scales: Scales, dt: float) -> float:
     """
     most = scales.least_reaction(dt)
     if not model.static and (model.condition == "midpoint" or model.mixed):
-        heavy = sum(b.mass.total * (len(b.sources) if b.rigid else 1) for b in model.bodies)
+        counts = [len(body.sources) if body.rigid else 1 for body in model.bodies]
+        heavy = float(scales.masses @ counts)
         most += LANDED * heavy * 4.0 * scales.speed / (model.theta * dt)
     return most

@@ -114,7 +114,9 @@ class Works:
         forces = landing.nodal_forces(len(states.model.points))
         for index, body in enumerate(states.model.bodies):
             impulse = states.dt * forces[body.span]
-            if body.moves_as_a_whole:
+            if not body.known:
+                landed[body.span] = np.nan
+            elif body.moves_as_a_whole:
                 landed[body.span] += states.whole(body).accelerated(impulse)
             else:
                 held = states.model.supports[index].held

@@ -127,7 +127,7 @@ class Forces:
         if body.modes is not None:
             # It resists in its amplitudes, and not at nodes: see `ReducedStep`.
             viscous, start, end, internal = (np.zeros_like(d) for _ in range(4))
-        elif model.blended and not body.rigid:
+        elif model.blended and body.blends:
             at_end = end + viscous + steadying - end_loads
             opposed = viscous - loads
             internal, missing, available = self._blended(index, body, opposed, at_end)
@@ -141,7 +141,7 @@ class Forces:
             available -= float((beside * d)[~held].sum())
         return BodyForces(
             inertia=np.zeros_like(d) if model.static else body.mass.times(v1 - v0) / dt,
-            gravity=body.mass.nodal[:, None] * model.gravity,
+            gravity=body.mass.times(np.broadcast_to(model.gravity, d.shape)),
             loads=loads,
             end_loads=end_loads,
             connections=self.pulling.force[span],

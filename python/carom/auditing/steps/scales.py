@@ -8,11 +8,11 @@ may be as large as that error times what it depends on.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from carom.auditing.arrays import Array
+from carom.auditing.arrays import Array, components
 from carom.auditing.bodies.body import AuditBody
 from carom.auditing.model import AuditModel
 from carom.auditing.steps.step import Step
@@ -58,7 +58,9 @@ class Scales:
         """How far places of obstacles may be off, which the run sums step by step [m]."""
         self.moved = 0.0
         """Largest displacement of a node [m]."""
-        self.mass = sum(body.mass.total for body in model.bodies)
+        self.masses = np.array([body.mass.total if body.known else 0.0 for body in model.bodies])
+        """Masses of the bodies [kg]; of those whose code is not there what `believe` finds."""
+        self.mass = float(self.masses.sum())
         reduced = any(body.modes is not None for body in model.bodies)
         self.sums = READ if reduced else ROUND_OFF
         """Relative difference of two energies, of the largest one."""
@@ -92,12 +94,29 @@ class Scales:
         if self._model.static and force > 0 and any(body.rigid for body in self._model.bodies):
             self.prevented = reference / force
 
+    def believe(self, history: Mapping[str, Array]) -> None:
+        """Take from the history how large energies are, and how heavy bodies that are not known.
+
+        These are magnitudes alone: a body of m has ½ m v² of translation.
+        """
+        if not self._model.whole:
+            self.energy = max(self.energy, float(history["total"].max()))
+        for index, body in enumerate(self._model.bodies):
+            if body.known:
+                continue
+            drift = [history[f"{body.name}.{v}"] for v in components("v", body.dimension)]
+            squares = np.square(drift).sum(axis=0)
+            fastest = int(squares.argmax())
+            translation = float(history[f"{body.name}.translation"][fastest])
+            if squares[fastest] > 0.0:
+                self.masses[index] = 2.0 * translation / float(squares[fastest])
+
     def include(self, displacement: Array, velocity: Array, time: float) -> None:
         """Take a state at a time [s] into account."""
         energy = sum(spring.energy(displacement, time) for spring in self._model.springs)
-        for body in self._model.bodies:
+        for body in self._model.known:
             energy += body.kinetic_energy(displacement[body.span], velocity[body.span])
-            energy += body.strain_energy(displacement[body.span], body.growth.at(time))
+            energy += abs(body.strain_energy(displacement[body.span], body.growth.at(time)))
         self.energy = max(self.energy, energy)
         self.speed = max(self.speed, float(np.abs(velocity).max()))
         self.moved = max(self.moved, float(np.abs(displacement).max()))
@@ -117,16 +136,18 @@ class Scales:
         return SAFETY * max(analysis.newton.tolerance * motion, floor, solved) + self.travel
 
     def strain(self, body: AuditBody, u: Array, time: float) -> float:
-        """Return how far the strain energy of a state at a time [s] may be off [J].
+        """Return how far the strain energy of a state at a time [s] may be off [J]."""
+        energy = body.strain_energy(u, body.growth.at(time))
+        return ROUND_OFF * abs(energy) + self._round_off(body, u, energy)
 
-        Displacements have round-off of their size, which does work on the internal forces.
+    def _round_off(self, body: AuditBody, u: Array, energy: float) -> float:
+        """Return what round-off of displacements makes of a strain energy [J].
+
+        It is of their size, and does work on the internal forces.
         """
         error = EPS * (self._model.size + float(np.abs(u).max()))
-        stiffness = float(body.row_stiffness.sum())
-        energy = body.strain_energy(u, body.growth.at(time))
-        # E ≈ ½ k e², so that an error of e changes it by √(2 E k) δ + ½ k δ².
-        slope = float(np.sqrt(2 * max(energy, 0.0) * stiffness)) + stiffness * error
-        return ROUND_OFF * abs(energy) + SAFETY * slope * error
+        slope = body.slope(u, energy) + float(body.row_stiffness.sum()) * error
+        return SAFETY * slope * error
 
     def displacement(self, step: Step) -> float:
         """Return how far the displacements of a step may be off [m]."""
@@ -149,7 +170,14 @@ class Scales:
 
     def force(self, step: Step, index: int) -> Array:
         """Return how far the equation of motion of nodes of a body may be off [N], [node_count]."""
-        return self.iteration(step.dt, index) * self.displacement(step)
+        off = self.iteration(step.dt, index) * self.displacement(step)
+        body = self._model.bodies[index]
+        if not (self._model.conserving and body.divides):
+            return off
+        ends = [(u[body.span], time) for u, time in step.ends]
+        energies = [(u, body.strain_energy(u, body.growth.at(time))) for u, time in ends]
+        energy = sum(SAFETY * EPS * abs(e) + self._round_off(body, u, e) for u, e in energies)
+        return off + body.doubt(ends[0][0], ends[1][0], energy)
 
     def resisted(self, step: Step, index: int) -> float:
         """Return how far the work of what resists a body, and of what holds it, may be off [J].
@@ -193,6 +221,9 @@ class Scales:
     def _iteration(self, dt: float, index: int) -> Array:
         body, model = self._model.bodies[index], self._model
         rate = 0.0 if model.static else 1 / (model.theta * dt)
+        if not body.known:
+            # Its inertia, as if all of it were at every node.
+            return np.full(len(body.points), float(self.masses[index]) * rate / dt)
         if model.static and body.rigid:
             # Nothing resists it but what it touches.
             stiffest = max(float(other.row_stiffness.max()) for other in model.bodies)

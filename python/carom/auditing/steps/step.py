@@ -59,6 +59,13 @@ class Step(States):
                 terms[name] += float(values.sum())
         return terms
 
+    def untold(self, term: float) -> bool:
+        """Return whether a term of the ledger depends on what only a code that is not there says.
+
+        Such a term is no number.
+        """
+        return not self.model.whole and bool(np.isnan(term))
+
     @cached_property
     def body_terms(self) -> list[dict[str, float]]:
         """The terms of the ledger of every body, and what it received through contact [J]."""
