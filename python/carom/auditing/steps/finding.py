@@ -327,7 +327,8 @@ class _Finder:
                 self._at_node(feet, mine, contact, number)
 
     def _at_node(self, feet: Feet, mine: Indices, contact: int, number: int) -> None:
-        target, stored = self._model.targets[number], self._stored_facets(contact)
+        model = self._model
+        target, stored = model.targets[number], self._stored_facets(contact)
         if self._like is None and not stored.smooth:
             mine = mine[np.isin(feet.facet[mine], stored.facets)]
             if not len(mine):
@@ -340,8 +341,9 @@ class _Finder:
         foot = int(good[np.lexsort((misfit[alike], feet.beyond[good], others))[0]])
         if self._like is not None:
             near = (int(self._like.facet[contact]), self._like.normal[contact])
-            foot = goes_on(feet, mine, near, target, otherwise=foot)
-        first = self._model.bodies[number].span.start
+            stays = model.dimension == 2 and not model.static
+            foot = goes_on(feet, mine, near, target, stays=stays, otherwise=foot)
+        first = model.bodies[number].span.start
         self._places[contact] = Place(
             gap=float(feet.gap[foot]),
             normal=feet.normal[foot],
