@@ -9,6 +9,10 @@ use crate::scheme::StressRule;
 /// Where a body deforms by less than this part of its motion, there is nothing that a step could miss of its energy, and round-off is all there is.
 const RIGID: f64 = 1e-7;
 
+/// The same in terms of its size: where it is at rest there is neither motion nor change of energy, and the quotient of the two would be one of round-off, which
+/// contacts that stick would bear.
+const STILL: f64 = 1e-9;
+
 /// The mean force of a step, and room for it.
 pub(super) struct MeanForce<const D: usize> {
     reference: Vec<Vector<D>>,
@@ -45,7 +49,8 @@ impl<const D: usize> MeanForce<D> {
         code.force(&self.middle, out);
         self.deform(d);
         let size = nodal::dot(&self.deforming, &self.deforming);
-        if size <= RIGID * RIGID * nodal::dot(d, d) {
+        let rigid = RIGID * RIGID * nodal::dot(d, d);
+        if size <= rigid.max(STILL * STILL * nodal::dot(&self.arms, &self.arms)) {
             return;
         }
         let missing = code.energy(guess.displacement) - start.energies.strain - nodal::dot(out, d);
