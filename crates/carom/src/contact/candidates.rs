@@ -7,6 +7,7 @@ use carom_mesh::Vector;
 
 use super::active::ActiveSet;
 use super::control::CONTROL;
+use super::kinks;
 use crate::model::at_rest::AtRest;
 use crate::model::given::Given;
 use crate::model::state::{Reaction, State};
@@ -88,7 +89,7 @@ impl<const D: usize> Finder<D> {
             }
         }
         if repetition > 0 {
-            keep_both_facets(&self.found, candidates);
+            kinks::keep_both_facets(&self.found, candidates);
         }
         // A second facet that is the first one says nothing, and may not be the one that is missed.
         candidates.retain(|c| !(c.redundant && matches!(c.site, Site::Second(_))));
@@ -143,14 +144,8 @@ impl<const D: usize> Finder<D> {
         // the same many times.
         let may_have_second = D == 2 && !interval.map.is_static() && self.repetition < CONTROL.second_facets;
         let known_as = |key| found.binary_search_by_key(&key, Candidate::key).ok().map(|k| &found[k]);
-        for m in &mut *missed {
-            if let (Site::Node(node), Some(first)) = (m.site, known_as(m.key()))
-                && may_have_second
-                && first.facet != m.facet
-                && contact.is_beside(first, &end)
-            {
-                (m.site, m.stays) = (Site::Second(node), true);
-            }
+        if may_have_second {
+            kinks::find_seconds(contact, found, &end, missed);
         }
         missed.retain(|m| known_as(m.key()).is_none());
         missed.sort_unstable();
@@ -160,10 +155,7 @@ impl<const D: usize> Finder<D> {
         missed.retain(|m| {
             let Some(gap) = gaps.next() else { return true };
             // On a smooth target a facet that is not the one it was is no second one.
-            let first = match m.site {
-                Site::Second(node) => known_as((m.pair, Site::Node(node))),
-                _ => None,
-            };
+            let first = kinks::first_of(m, found);
             let other = first.map(|first| assembly.contact.evaluate(first, &end).gap);
             let least = given.interference(m.key())[1] + other.unwrap_or(0.0).min(0.0);
             // Where motions are ruled, gaps are as good as the way of a step is straight.
@@ -261,20 +253,6 @@ impl<const D: usize> Finder<D> {
         let Self { search, missed, .. } = self;
         given.assembly.contact.detect_itself(body, &Path::resting(position, reach), search, missed);
         !self.missed.is_empty()
-    }
-}
-
-/// Lets nodes that had a second facet in the last attempt at a step have both again: one that now faces the second of them has the first one as its second.
-fn keep_both_facets(found: &[Candidate], candidates: &mut [Candidate]) {
-    for second in candidates.iter_mut().filter(|c| c.redundant && matches!(c.site, Site::Second(_))) {
-        let facet_of = |site| {
-            let known = found.binary_search_by_key(&(second.pair, site), Candidate::key);
-            known.ok().and_then(|k| found[k].facet)
-        };
-        let both = [second.node().and_then(|node| facet_of(Site::Node(node))), facet_of(second.site)];
-        if let Some(other) = both.into_iter().flatten().find(|&other| Some(other) != second.facet) {
-            (second.facet, second.redundant) = (Some(other), false);
-        }
     }
 }
 

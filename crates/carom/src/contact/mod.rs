@@ -13,6 +13,7 @@ pub(crate) mod cross_check;
 pub(crate) mod delassus;
 mod gradients;
 mod islands;
+mod kinks;
 pub(crate) mod on_masses;
 mod pressing;
 pub(crate) mod reduced;
