@@ -17,6 +17,7 @@ import random_scenes
         pytest.param(200, 2.8e-5, id="before the facet that it came to first"),
         pytest.param(375, 1.6e-5, id="while two facets change places"),
         pytest.param(49, 8.8e-6, id="from a node that it stood on"),
+        pytest.param(390, 1.9e-5, id="back over a convex one"),
     ],
 )
 def test_a_node_that_slides_over_the_kink_of_a_bent_side_stays_outside(seed, was, tmp_path):

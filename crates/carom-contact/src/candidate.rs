@@ -38,26 +38,27 @@ pub struct Candidate {
     /// Whether it says what another candidate says, and is to be left out. Of two nodes that face one another one is left out, and so is
     /// one of a node and the edges that cross at it.
     pub redundant: bool,
-    /// Whether it stays with its facet where it slides over a kink of a smooth target; else it goes on to the next one.
-    pub stays: bool,
+    /// At which ends of its facet, the first and the last, it stays with that and does not go on to the next one: see
+    /// [`concave_kinks`](crate::ContactModel::concave_kinks).
+    pub stays: [bool; 2],
 }
 
 impl Candidate {
     /// The source `node` of a pair, facing a facet if its target has some.
     #[must_use]
     pub fn at_node(pair: u32, node: u32, facet: Option<u32>) -> Self {
-        Self { pair, site: Site::Node(node), facet, redundant: false, stays: false }
+        Self { pair, site: Site::Node(node), facet, redundant: false, stays: [false; 2] }
     }
 
     /// The multiplier of the source `node` of a mortar pair on a `side` of the source there.
     #[must_use]
     pub fn of_multiplier(pair: u32, (node, side): (u32, u32)) -> Self {
-        Self { pair, site: Site::Multiplier(node, side), facet: None, redundant: false, stays: false }
+        Self { pair, site: Site::Multiplier(node, side), facet: None, redundant: false, stays: [false; 2] }
     }
 
     /// How far its facet reaches beyond its edges.
     pub(crate) fn reach(&self) -> Reach {
-        if self.stays { Reach::Own } else { Reach::Beyond }
+        if self.stays == [false; 2] { Reach::Beyond } else { Reach::Own(self.stays) }
     }
 
     /// The node, if it is at one.

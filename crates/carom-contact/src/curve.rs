@@ -101,8 +101,11 @@ impl Curve {
             let beyond = offset.beyond(ENDS[end]);
             // Before a kink a point is beside both segments: it stays with the one it came to first.
             let stays = |there: &Cubic<D>| {
-                let is_its_own = reach == Reach::Own && beyond.abs() < SEARCH.beyond;
-                segment.is_flat[end] && (is_its_own || there.falls(1 - end))
+                let is_its_own = || match reach {
+                    Reach::Own(kinks) => from.is_none() && kinks[end] && beyond.abs() < SEARCH.beyond,
+                    _ => false,
+                };
+                segment.is_flat[end] && (there.falls(1 - end) || is_its_own())
             };
             match next {
                 Some((next, there)) if !stays(&there) => {
@@ -120,6 +123,16 @@ impl Curve {
     /// Whether a segment is more than the straight line between its ends.
     pub fn is_curved(&self, segment: u32) -> bool {
         self.segments[segment as usize].len > 2
+    }
+
+    /// At which ends of a segment, the first and the last, the line has a concave kink.
+    pub fn concave_kinks<const D: usize>(&self, segment: u32, position: &Positions<'_, D>) -> [bool; 2] {
+        let segment = &self.segments[segment as usize];
+        let line = |segment| Cubic::new(segment, &Vector::zeros(), position);
+        std::array::from_fn(|end| {
+            let next = segment.neighbours[end].filter(|_| segment.is_flat[end]);
+            next.is_some_and(|next| line(segment).is_concave(end, &line(&self.segments[next as usize])))
+        })
     }
 
     /// The nodes that a segment is a combination of.
@@ -263,6 +276,13 @@ impl<const D: usize> Cubic<D> {
     fn beyond(&self, end: f64) -> f64 {
         let t = self.combine(&slopes(end));
         -self.slope(end).0 / t.norm_squared()
+    }
+
+    /// Whether the line turns to its outer side from an end on to the segment `there`.
+    fn is_concave(&self, end: usize, there: &Self) -> bool {
+        let [own, next] = [self.combine(&slopes(ENDS[end])), there.combine(&slopes(ENDS[1 - end]))];
+        let left = own[0] * next[1] - own[1] * next[0];
+        if end == 1 { left < 0.0 } else { left > 0.0 }
     }
 
     /// ξ of the closest point between ends beyond which the distance does not fall: Newton, with bisection where it leaves the

@@ -191,7 +191,7 @@ impl<const D: usize> ContactModel<D> {
                         site,
                         facet: Some(facet),
                         redundant: false,
-                        stays: false,
+                        stays: [false; 2],
                     });
                 },
             );

@@ -29,6 +29,16 @@ impl<const D: usize> ContactModel<D> {
         }
     }
 
+    /// At which ends of the facet of a node, the first and the last, a smooth target of the plane has a concave kink: where a side that was straight has bent.
+    #[must_use]
+    pub fn concave_kinks(&self, candidate: &Candidate, position: &Positions<'_, D>) -> [bool; 2] {
+        let (Site::Node(_) | Site::Second(_), Some(f)) = (candidate.site, candidate.facet) else {
+            return [false; 2];
+        };
+        let position = &self.placed(candidate.pair, position);
+        self.faced_surface(candidate).map_or([false; 2], |surface| surface.concave_kinks(f, position))
+    }
+
     /// Whether a node is beside the facet that it was found before, so that another one may be its [second](Site::Second).
     #[must_use]
     pub fn is_beside(&self, first: &Candidate, position: &Positions<'_, D>) -> bool {

@@ -29,8 +29,8 @@ pub enum Reach {
     /// On every side, by half its width, straight on along its tangents at the edge. So a node that slides past the edge of its facet
     /// within a step is still at right angles to the point it presses on. The pair of forces then has no moment.
     Beyond,
-    /// So, but not on to the next facet at the kinks of a smooth surface, of sides that were straight.
-    Own,
+    /// So, but at these ends, the first and the last, not on to the next facet: those where sides that were straight have concave kinks.
+    Own([bool; 2]),
 }
 
 /// Projects `x` on `facet`, whose nodes are at `position`.

@@ -60,7 +60,7 @@ impl<const D: usize> ContactModel<D> {
             first.is_in_front() && (is_near(&first) || last.is_some_and(|last| is_near(&last)))
         };
         let mut add = |site, facet| {
-            out.push(Candidate { pair: pair as u32, site, facet, redundant: false, stays: false })
+            out.push(Candidate { pair: pair as u32, site, facet, redundant: false, stays: [false; 2] })
         };
         match obstacle.shape {
             RigidShape::Cylinder { .. } => {

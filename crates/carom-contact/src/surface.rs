@@ -199,6 +199,14 @@ impl ContactSurface {
         }
     }
 
+    /// At which ends of a facet of the plane, the first and the last, it is smooth but for a concave kink.
+    pub(crate) fn concave_kinks<const D: usize>(&self, f: u32, position: &Positions<'_, D>) -> [bool; 2] {
+        match &self.shape {
+            Shape::Curved(curve) => curve.concave_kinks(f, position),
+            Shape::Tiled(_) | Shape::Faceted => [false; 2],
+        }
+    }
+
     /// Whether the surface is not what the cells say over a facet.
     pub(crate) fn is_smooth_over(&self, f: u32) -> bool {
         match &self.shape {

@@ -50,7 +50,7 @@ impl<const D: usize> ContactModel<D> {
                         site,
                         facet,
                         redundant: false,
-                        stays: false,
+                        stays: [false; 2],
                     };
                     let crossed = pierced.map(|[a, b]| candidate(first, Site::Crossing(a, b), None));
                     out.extend(crossed.or_else(|| {

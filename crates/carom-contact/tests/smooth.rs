@@ -306,16 +306,21 @@ fn no_node_that_presses_into_a_valley_or_a_hill_is_missed() {
 
 /// A straight side that has bent: where nothing is smoothed.
 #[test]
-fn at_a_concave_kink_a_node_goes_on_to_the_next_facet_or_stays_with_its_own() {
+fn at_a_kink_a_node_goes_on_to_the_next_facet_or_stays_before_a_concave_one() {
     let scene =
         smooth(&generate::grid([0.0; 2], [4.0, 1.0], [4, 1]).expect("valid"), |x| x - Vector2::new(2.0, 1.0));
-    let bent = |x: &Vector2| Vector2::new(x[0], x[1] + 0.2 * x[0].abs());
-    let nodes: Vec<Vector2> = scene.reference.iter().map(bent).collect();
-    let own = scene.facet(&nodes, &Vector2::new(-0.5, 0.1));
-    let x = Vector2::new(0.3, 0.1);
-    let at = |n: u32| if n == scene.probe { x } else { nodes[n as usize] };
-    for (stays, slope) in [(false, 0.2), (true, -0.2)] {
-        let candidate = Candidate { stays, ..Candidate::at_node(0, scene.probe, Some(own)) };
+    for (rise, known, slope) in [(0.2, false, 0.2), (0.2, true, -0.2), (-0.2, true, -0.2)] {
+        let bent = |x: &Vector2| Vector2::new(x[0], x[1] + rise * x[0].abs());
+        let nodes: Vec<Vector2> = scene.reference.iter().map(bent).collect();
+        let own = scene.facet(&nodes, &Vector2::new(-0.5, 0.5 * rise));
+        let x = Vector2::new(0.3, 0.1);
+        let at = |n: u32| if n == scene.probe { x } else { nodes[n as usize] };
+        let mut candidate = Candidate::at_node(0, scene.probe, Some(own));
+        let kinks = scene.model.concave_kinks(&candidate, &at);
+        assert_eq!(kinks.iter().filter(|is_concave| **is_concave).count(), usize::from(rise > 0.0));
+        if known {
+            candidate.stays = kinks;
+        }
         let contact = scene.model.evaluate(&candidate, &at);
         let normal = Vector2::new(-slope, 1.0).normalize();
         assert!((row(&contact.frame, 0) - normal).norm() < 1e-15, "{:?}", contact.frame);

@@ -93,8 +93,10 @@ impl<const D: usize> Finder<D> {
         }
         // A second facet that is the first one says nothing, and may not be the one that is missed.
         candidates.retain(|c| !(c.redundant && matches!(c.site, Site::Second(_))));
-        // In load steps a node at a kink goes on to the other facet, in others it is kept out of both.
-        candidates.iter_mut().for_each(|c| c.stays = !given.interval.map.is_static());
+        // In load steps a node at a kink goes on to the other facet, in others it is kept out of both. What is a kink is so for the whole step.
+        if !given.interval.map.is_static() {
+            candidates.iter_mut().for_each(|c| c.stays = contact.concave_kinks(c, &start));
+        }
         self.found.clone_from(candidates);
         self.has_looked = false;
     }

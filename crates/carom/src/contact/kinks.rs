@@ -15,7 +15,7 @@ pub(super) fn find_seconds<const D: usize>(
             && first.facet != m.facet
             && contact.is_beside(first, end)
         {
-            (m.site, m.stays) = (Site::Second(node), true);
+            m.site = Site::Second(node);
         }
     }
 }

@@ -51,23 +51,25 @@ def find(
     *,
     step: tuple[float, float],
     like: Contacts | None = None,
+    begun: Array | None = None,
 ) -> Contacts:
     """Find the contacts of a state with nodes at `position` [m] and obstacles as at `time` [s].
 
-    The `step` has start and end [s].
+    The `step` has start and end [s]; where one in time of the plane has `begun` its nodes are [m],
+    what is a kink there is one for the whole step.
 
     What is stored says which node, edges or corner they are at. Feet are those that come closest to
     the stored gaps and normals, on the stored facet where others are as good. Gaps and normals are
     not of all times of a step: feet at others are near those of the contacts `like` them.
     """
-    found = _Finder(model, state, (position, time), step, like).found()
+    found = _Finder(model, state, (position, time), step, (like, begun)).found()
     bonds = found.bonds
     if not bonds.any():
         return found
     # What nothing breaks is where it was closed at the start of the run, for ever.
-    begun = model.begun
-    start = (model.points + begun.displacement, begun.time)
-    tied = _Finder(model, state, start, (begun.time, begun.time + 1.0), None).found()
+    drawn = model.begun
+    start = (model.points + drawn.displacement, drawn.time)
+    tied = _Finder(model, state, start, (drawn.time, drawn.time + 1.0)).found()
     return found.placed(~bonds, carried(model, tied, start, (position, time), found))
 
 
@@ -78,10 +80,11 @@ class _Finder:
         state: Mapping[str, Any],
         at: tuple[Array, float],
         step: tuple[float, float],
-        like: Contacts | None,
+        near: tuple[Contacts | None, Array | None] = (None, None),
     ) -> None:
         position, time = at
-        self._model, self._position, self._time, self._like = model, position, time, like
+        self._model, self._position, self._time = model, position, time
+        self._like, self._begun = near
         self._state = state
         self._sites = Sites.of(state)
         stored = state["contact_node"]
@@ -341,8 +344,8 @@ class _Finder:
         foot = int(good[np.lexsort((misfit[alike], feet.beyond[good], others))[0]])
         if self._like is not None:
             near = (int(self._like.facet[contact]), self._like.normal[contact])
-            stays = model.dimension == 2 and not model.static
-            foot = goes_on(feet, mine, near, target, stays=stays, otherwise=foot)
+            begun = None if self._begun is None else self._begun[model.bodies[number].span]
+            foot = goes_on(feet, mine, near, target, begun=begun, otherwise=foot)
         first = model.bodies[number].span.start
         self._places[contact] = Place(
             gap=float(feet.gap[foot]),

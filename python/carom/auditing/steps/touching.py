@@ -106,4 +106,7 @@ class Touching:
         time = float(self._states.start["time"]) + weight * self._states.dt
         position = self._states.position(weight)
         step = (float(self._states.start["time"]), self._states.time)
-        return find(self._states.model, state, position, time, step=step, like=like)
+        model = self._states.model
+        in_time = model.dimension == 2 and not model.static
+        begun = self._states.position(0.0) if in_time else None
+        return find(model, state, position, time, step=step, like=like, begun=begun)
