@@ -44,21 +44,27 @@ pub struct Candidate {
 }
 
 impl Candidate {
+    /// At a site of a pair, before a facet if it has one.
+    #[must_use]
+    pub fn new(pair: u32, site: Site, facet: Option<u32>) -> Self {
+        Self { pair, site, facet, redundant: false, stays: [false; 2] }
+    }
+
     /// The source `node` of a pair, facing a facet if its target has some.
     #[must_use]
     pub fn at_node(pair: u32, node: u32, facet: Option<u32>) -> Self {
-        Self { pair, site: Site::Node(node), facet, redundant: false, stays: [false; 2] }
+        Self::new(pair, Site::Node(node), facet)
     }
 
     /// The multiplier of the source `node` of a mortar pair on a `side` of the source there.
     #[must_use]
     pub fn of_multiplier(pair: u32, (node, side): (u32, u32)) -> Self {
-        Self { pair, site: Site::Multiplier(node, side), facet: None, redundant: false, stays: [false; 2] }
+        Self::new(pair, Site::Multiplier(node, side), None)
     }
 
     /// How far its facet reaches beyond its edges.
     pub(crate) fn reach(&self) -> Reach {
-        if self.stays == [false; 2] { Reach::Beyond } else { Reach::Own(self.stays) }
+        Reach::Own(self.stays)
     }
 
     /// The node, if it is at one.

@@ -186,13 +186,7 @@ impl<const D: usize> ContactModel<D> {
                 scratch,
                 |corner, facet| {
                     let site = Site::Corner(corner);
-                    out.push(Candidate {
-                        pair: pair_index,
-                        site,
-                        facet: Some(facet),
-                        redundant: false,
-                        stays: [false; 2],
-                    });
+                    out.push(Candidate::new(pair_index, site, Some(facet)));
                 },
             );
         }

@@ -59,9 +59,7 @@ impl<const D: usize> ContactModel<D> {
             let is_near = |nearest: &Nearest<D>| nearest.gap(radius).0 <= path.margin;
             first.is_in_front() && (is_near(&first) || last.is_some_and(|last| is_near(&last)))
         };
-        let mut add = |site, facet| {
-            out.push(Candidate { pair: pair as u32, site, facet, redundant: false, stays: [false; 2] })
-        };
+        let mut add = |site, facet| out.push(Candidate::new(pair as u32, site, facet));
         match obstacle.shape {
             RigidShape::Cylinder { .. } => {
                 for edge in source.all_edges().filter(|edge| comes_near(Site::Edge(edge.nodes))) {

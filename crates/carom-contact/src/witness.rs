@@ -45,13 +45,7 @@ impl<const D: usize> ContactModel<D> {
                     let first = self.pairs.directions(there).start;
                     let is_source = first == there;
                     let pierced = other.pierced_on_the_way(own_edge, depth, is_source, swept, path);
-                    let candidate = |pair: usize, site, facet| Candidate {
-                        pair: pair as u32,
-                        site,
-                        facet,
-                        redundant: false,
-                        stays: [false; 2],
-                    };
+                    let candidate = |pair: usize, site, facet| Candidate::new(pair as u32, site, facet);
                     let crossed = pierced.map(|[a, b]| candidate(first, Site::Crossing(a, b), None));
                     out.extend(crossed.or_else(|| {
                         let dipped = other.dipped_on_the_way(own_edge, depth, swept, path);

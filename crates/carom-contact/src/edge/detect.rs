@@ -55,7 +55,7 @@ impl<const D: usize> ContactModel<D> {
         out.extend(found.iter().filter(|c| stays(c)).map(|c| {
             let [source, target] = c.edges;
             let site = Site::Crossing(source, target);
-            Candidate { pair: pair as u32, site, facet: None, redundant: false, stays: [false; 2] }
+            Candidate::new(pair as u32, site, None)
         }));
     }
 }

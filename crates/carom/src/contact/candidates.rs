@@ -145,11 +145,10 @@ impl<const D: usize> Finder<D> {
         // Two facets may change places from one attempt at a step to the next. In space rows of faces that lie flush on one another would say
         // the same many times.
         let may_have_second = D == 2 && !interval.map.is_static() && self.repetition < CONTROL.second_facets;
-        let known_as = |key| found.binary_search_by_key(&key, Candidate::key).ok().map(|k| &found[k]);
         if may_have_second {
             kinks::find_seconds(contact, found, &end, missed);
         }
-        missed.retain(|m| known_as(m.key()).is_none());
+        missed.retain(|m| kinks::known(found, m.key()).is_none());
         missed.sort_unstable();
         assembly.contact.evaluate_all(missed, &end, missed_mortar, missed_contacts);
         let mut missed_one = false;

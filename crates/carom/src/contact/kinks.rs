@@ -40,6 +40,7 @@ pub(super) fn keep_both_facets(found: &[Candidate], candidates: &mut [Candidate]
     }
 }
 
-fn known(found: &[Candidate], key: (u32, Site)) -> Option<&Candidate> {
+/// The candidate of a pair and site among those `found`, ascending.
+pub(super) fn known(found: &[Candidate], key: (u32, Site)) -> Option<&Candidate> {
     found.binary_search_by_key(&key, Candidate::key).ok().map(|k| &found[k])
 }

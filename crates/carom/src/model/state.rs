@@ -53,7 +53,7 @@ impl<const D: usize> Reaction<D> {
     /// The candidate that it was.
     #[must_use]
     pub fn candidate(&self) -> Candidate {
-        Candidate { pair: self.pair, site: self.site, facet: self.facet, redundant: false, stays: [false; 2] }
+        Candidate::new(self.pair, self.site, self.facet)
     }
 
     /// The source node; of an edge or a facet the one that takes most of the reaction.

@@ -172,7 +172,8 @@ fn approach<const D: usize>(
     unreachable!("the loop ends at max_iterations")
 }
 
-/// Solves for a correction at the present guess, and for the reactions there; `late` in the iterations the last correction [m] is known. Returns what the tolerance of the contact problem leaves of motions [m].
+/// Solves for a correction at the present guess, and for the reactions there; `late` in the iterations the last correction [m] is known. Returns
+/// what the tolerance of the contact problem leaves of motions [m].
 fn solve<const D: usize>(
     bodies: &[usize],
     late: Option<f64>,
