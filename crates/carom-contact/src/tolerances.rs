@@ -1,5 +1,7 @@
 //! Every geometric threshold of contact, and what it is relative to.
 
+use std::f64::consts::FRAC_1_SQRT_2;
+
 /// Which node faces which point of a target.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct SearchTolerances {
@@ -92,13 +94,14 @@ pub(crate) const EDGES: EdgeTolerances = EdgeTolerances {
 /// Which facets face one another, and how much of one the other covers.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct MortarTolerances {
-    /// Cosine of the largest angle, 60°, between a normal and the opposite one for facets to face one another. Those at the sides of bodies
-    /// that stand on one another do not.
-    pub opposed: f64,
-    /// How far apart the balls around facets may be so that a multiplier sees all of the target that covers it, in diameters of both.
-    pub reach: f64,
-    /// How deep a facet may be behind another, in diameters of the smaller: the far sides of thin bodies that touch are deeper.
-    pub depth: f64,
+    /// Cosines of the angles between a normal and the opposite one at which facets begin to face one another, 60°, and from which they do
+    /// wholly, 45°. Those at the sides of bodies that stand on one another do not.
+    pub opposed: [f64; 2],
+    /// How far apart facets face one another wholly, and where they end to, in diameters of both.
+    pub reach: [f64; 2],
+    /// How deep a facet is behind another where they face one another wholly, and where they end to, in diameters of the smaller: the far sides of
+    /// thin bodies that touch are deeper.
+    pub depth: [f64; 2],
     /// Overlaps of two parts smaller than this fraction of the one on the source are round-off.
     pub negligible: f64,
     /// A multiplier that covers less than this fraction of its whole has no contact.
@@ -106,8 +109,13 @@ pub(crate) struct MortarTolerances {
 }
 
 /// The tolerances of all mortar pairs.
-pub(crate) const MORTAR: MortarTolerances =
-    MortarTolerances { opposed: 0.5, reach: 0.5, depth: 0.25, negligible: 1e-14, covered: 1e-12 };
+pub(crate) const MORTAR: MortarTolerances = MortarTolerances {
+    opposed: [0.5, FRAC_1_SQRT_2],
+    reach: [0.25, 0.5],
+    depth: [0.125, 0.25],
+    negligible: 1e-14,
+    covered: 1e-12,
+};
 
 /// What distances and the measure of penetration take for one point, for inside, and for worth a contact.
 #[derive(Debug, Clone, Copy, PartialEq)]

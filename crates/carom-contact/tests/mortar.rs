@@ -366,3 +366,52 @@ fn moment_of_reactions_on_discs_falls_with_the_mesh() {
     println!("moment per force: {coarse:e} m with 16 divisions, {fine:e} m with 64");
     assert!(coarse < 1e-3 && fine < coarse / 8.0, "{coarse:e} {fine:e}");
 }
+
+/// The fastest change of a gap [m/rad] where a source turns by two radians about `centre`, in the plane of its last axes. Of rows that cover less than
+/// a tenth of what the largest covers it is not asked: their means are of little.
+fn fastest_change<const D: usize>(scene: &Scene<D>, centre: [f64; 2]) -> f64 {
+    const STEP: f64 = 2e-3;
+    let rows = |angle: f64| {
+        let (sin, cos) = angle.sin_cos();
+        let turned = |x: &Vector<D>| {
+            let [a, b] = [x[D - 2] - centre[0], x[D - 1] - centre[1]];
+            let mut y = *x;
+            (y[D - 2], y[D - 1]) = (centre[0] + cos * a - sin * b, centre[1] + sin * a + cos * b);
+            y
+        };
+        let nodes = scene.nodes.iter().enumerate();
+        let nodes: Vec<_> = nodes.map(|(n, x)| if n < scene.sources { turned(x) } else { *x }).collect();
+        let (candidates, contacts) = scene.contacts(&nodes, 10.0);
+        let least = 0.1 * contacts.iter().map(|c| c.area).fold(0.0, f64::max);
+        let all = candidates.into_iter().zip(contacts).filter(|(_, c)| c.area > least);
+        all.map(|(candidate, c)| (candidate.site, c.gap)).collect::<Vec<_>>()
+    };
+    let mut fastest = 0.0_f64;
+    let mut before = rows(0.0);
+    for k in 1..=1000 {
+        let after = rows(STEP * f64::from(k));
+        for (site, gap) in &before {
+            if let Some((_, then)) = after.iter().find(|(other, _)| other == site) {
+                fastest = fastest.max((then - gap).abs() / STEP);
+            }
+        }
+        before = after;
+    }
+    fastest
+}
+
+/// A facet that came to face another at a bound of angle, reach or depth made gaps leap.
+#[test]
+fn gaps_do_not_leap_as_bodies_turn_before_one_another() {
+    let below = block([-1.0, -1.0], [2.0, 1.0], [5, 1]);
+    let square = block([-0.4, 0.1], [0.8, 0.8], [3, 3]);
+    let round = generate::Disc { centre: [0.0, 0.48], radius: 0.5, divisions: 4, rings: None };
+    for above in [square, round.quadrilaterals().expect("valid")] {
+        let fastest = fastest_change(&Scene::new(&above, &below), [0.0, 0.5]);
+        assert!(fastest < 2.0, "{fastest} m/rad");
+    }
+    let below = block([-1.0, -1.0, -1.0], [2.0, 2.0, 1.0], [1, 5, 1]);
+    let cube = block([-0.5, -0.4, 0.1], [1.0, 0.8, 0.8], [1, 3, 3]);
+    let fastest = fastest_change(&Scene::new(&cube, &below), [0.0, 0.5]);
+    assert!(fastest < 2.0, "{fastest} m/rad");
+}

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from grazing_discs import discs
 from refuting import confirmed, refuted_after
 
 import carom
@@ -106,6 +107,14 @@ def test_smooth_sides_in_space_are_confirmed(tmp_path):
     case["bodies"][1]["velocity"] = [0.5, 0.0, -20.0]
     case["output"] |= {"history_every": 4e-3, "fields_every": 4e-3}
     run_confirmed(case, tmp_path)
+
+
+def test_facets_that_turn_past_one_another_are_confirmed(tmp_path):
+    """Facets crossed the angle from which they face one another: the audit found gaps open."""
+    case = discs(70, discretisation="mortar")
+    case = case.with_overrides(["output.audit = true", "output.fields_every = 1e-3"])
+    carom.run(case, out=tmp_path)
+    assert confirmed(tmp_path)["contact gaps"].figure < 1e-13
 
 
 def test_bodies_of_revolution_are_confirmed(tmp_path):

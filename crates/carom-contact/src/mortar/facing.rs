@@ -3,7 +3,6 @@
 use carom_mesh::{Facet, Vector};
 use smallvec::SmallVec;
 
-use super::clip::{Polygon, intersection, orient};
 use super::plane::Plane;
 use crate::aabb::Aabb;
 use crate::bvh::Bvh;
@@ -24,7 +23,7 @@ pub(super) struct Facing {
 }
 
 impl<const D: usize> ContactModel<D> {
-    /// Adds the facing facets of a pair that come within `margin` [m] of one another between `start` and `end`.
+    /// Adds the facets of a pair that may face one another between the start and the end of the `path`.
     pub(super) fn find_facing(&self, pair: usize, path: &Path<'_, D>, out: &mut Vec<Facing>) {
         let Target::Surface(target) = self.pairs.get(pair).target else { return };
         let (source, target) = (&self.surfaces[self.pairs.get(pair).source], &self.surfaces[target]);
@@ -50,7 +49,7 @@ impl<const D: usize> ContactModel<D> {
             let first = out.len();
             tree.overlapping(&own.room.bounds(), |k, _| {
                 let other = &targets[k as usize];
-                if own.room.meets(&other.room) && own.faces(other, path.margin) {
+                if own.room.meets(&other.room) && own.faces(other) {
                     out.push(Facing { pair: pair as u32, source: own.facet, target: other.facet });
                 }
             });
@@ -72,7 +71,7 @@ impl<const D: usize> Room<D> {
         let places = || facet.nodes.iter().flat_map(|&n| path.ends(n));
         let centre = places().sum::<Vector<D>>() / (2 * facet.nodes.len()) as f64;
         let around = places().map(|x| (x - centre).norm_squared()).fold(0.0, f64::max).sqrt();
-        Self { centre, radius: around + path.margin + MORTAR.reach * diameter(facet, &|n| path.middle(n)) }
+        Self { centre, radius: around + path.margin + MORTAR.reach[1] * diameter(facet, &|n| path.middle(n)) }
     }
 
     fn bounds(&self) -> Aabb<D> {
@@ -88,38 +87,19 @@ impl<const D: usize> Room<D> {
 struct Near<const D: usize> {
     facet: u32,
     room: Room<D>,
-    /// Its corners [m] and its plane in the middle of the step.
-    corners: SmallVec<[Vector<D>; 4]>,
-    plane: Plane<D>,
-    /// Diameter [m].
-    size: f64,
+    /// Outward unit normal in the middle of the step.
+    normal: Vector<D>,
 }
 
 impl<const D: usize> Near<D> {
     fn new(number: u32, facet: &Facet, room: Room<D>, position: &Positions<'_, D>) -> Option<Self> {
         let corners: SmallVec<[Vector<D>; 4]> =
             facet.nodes[..facet.kind.corner_count()].iter().map(|&n| position(n)).collect();
-        let plane = Plane::through(&corners)?;
-        Some(Self { facet: number, room, corners, plane, size: diameter(facet, position) })
+        Some(Self { facet: number, room, normal: Plane::through(&corners)?.normal() })
     }
 
-    /// Whether a facet is opposite and not far behind: neither its centre nor all of it that covers this one. Of a facet that is long or inclined
-    /// the centre alone may be.
-    fn faces(&self, other: &Self, margin: f64) -> bool {
-        let limit = margin + MORTAR.depth * self.size.min(other.size);
-        let depth = || -self.plane.normal().dot(&(other.plane.centre() - self.plane.centre()));
-        self.plane.normal().dot(&other.plane.normal()) < -MORTAR.opposed
-            && (depth() < limit
-                || self.covered(other).iter().any(|p| -self.plane.height(&other.plane, p) < limit))
-    }
-
-    /// The part of this facet that another covers, in its plane.
-    fn covered(&self, other: &Self) -> Polygon {
-        let [own, window] = [self, other].map(|facet| {
-            let mut polygon: Polygon = facet.corners.iter().map(|x| self.plane.coordinates(x)).collect();
-            orient(D - 1, &mut polygon);
-            polygon
-        });
-        intersection(D - 1, &own, &window)
+    /// Whether a facet looks the other way at all. How much it counts is known where the rows are made.
+    fn faces(&self, other: &Self) -> bool {
+        self.normal.dot(&other.normal) < 0.0
     }
 }

@@ -9,10 +9,12 @@ use super::clip::{cut, intersection, simplices, size};
 use super::plane::{Image, Plane};
 use super::quadrature::rule;
 use super::row::Row;
+use super::share::{by_angle, by_distance};
 use crate::ContactSurface;
 use crate::parts::{MAX_FACET_NODES, parts};
 use crate::path::Positions;
 use crate::project::{Reach, Weights};
+use crate::surface::diameter;
 use crate::tolerances::MORTAR;
 
 /// The integrals of the multipliers of the corners of a part and the weights of the nodes over it.
@@ -42,6 +44,7 @@ pub(super) fn integrate<const D: usize>(
 ) {
     let dimension = D - 1;
     let source = &of_source.facets[source_facet as usize];
+    let source_size = diameter(source, position);
     for (source_part, &(kind, corners)) in parts(source.kind).iter().enumerate() {
         let source_nodes = of_source.nodes_over(source_facet, source_part);
         let places: SmallVec<[Vector<D>; 4]> = corners.iter().map(|&a| position(source.nodes[a])).collect();
@@ -56,13 +59,28 @@ pub(super) fn integrate<const D: usize>(
         let row: SmallVec<[Option<usize>; 4]> = corners.iter().map(|&a| row_of(a)).collect();
         for target_facet in targets.clone() {
             let target = &of_target.facets[target_facet as usize];
+            let sizes = [source_size, diameter(target, position)];
             let other = Image::new(target.kind, target.nodes.iter().map(in_plane));
             let points = rule(dimension, source.kind != kind || parts(target.kind).len() > 1);
             let is_smooth = of_target.is_smooth_over(target_facet);
             let mut with_target = products(target.nodes.len());
             let mut overlap = 0.0;
             for &(_, target_corners) in parts(target.kind) {
+                let opposite: SmallVec<[Vector<D>; 4]> =
+                    target_corners.iter().map(|&a| position(target.nodes[a])).collect();
+                let Some(opposite) = Plane::through(&opposite) else { continue };
+                let mut share = by_angle(&plane, &opposite);
+                if share == 0.0 {
+                    continue;
+                }
                 let common = intersection(dimension, &outline, &other.polygon(target_corners));
+                if common.is_empty() {
+                    continue;
+                }
+                share *= by_distance([&plane, &opposite], sizes, &common);
+                if share == 0.0 {
+                    continue;
+                }
                 for simplex in cut(dimension, &common) {
                     let simplex_size = size(dimension, &simplex);
                     if simplex_size <= MORTAR.negligible * whole {
@@ -70,7 +88,7 @@ pub(super) fn integrate<const D: usize>(
                     }
                     overlap += simplex_size;
                     let mut values = [[0.0; MAX_FACET_NODES]; 3];
-                    for (barycentric, share) in points {
+                    for (barycentric, of_rule) in points {
                         let point = std::array::from_fn(|i| {
                             barycentric.iter().zip(&simplex).map(|(l, corner)| l * corner[i]).sum()
                         });
@@ -82,7 +100,7 @@ pub(super) fn integrate<const D: usize>(
                             part.shape_at(&point, multiplier);
                         }
                         other.shape_at(&point, target_shape);
-                        let mut measure = share * simplex_size;
+                        let mut measure = share * of_rule * simplex_size;
                         if of_source.is_meridian {
                             let nodes = source.nodes.iter().zip(&*source_shape);
                             let radius: f64 = nodes.map(|(&n, shape)| shape * position(n)[0]).sum();

@@ -30,6 +30,7 @@ mod integrate;
 mod plane;
 mod quadrature;
 mod row;
+mod share;
 
 use std::ops::Range;
 

@@ -30,11 +30,6 @@ impl<const D: usize> Plane<D> {
         normal.iter().all(|x| x.is_finite()).then(|| Self { origin, frame: frame(&normal) })
     }
 
-    /// The centre of the corners [m].
-    pub fn centre(&self) -> Vector<D> {
-        self.origin
-    }
-
     /// Outward unit normal of the facet.
     pub fn normal(&self) -> Vector<D> {
         self.frame.row(0).transpose()

@@ -16,7 +16,12 @@ from carom.auditing.arrays import Array, Indices
 from carom.auditing.mesh.kinds import kind_with
 from carom.auditing.targets.clipping import Rule, common, cut, oriented, rule_over, size, whole_size
 from carom.auditing.targets.covering import Covering
-from carom.auditing.targets.facing import facing_facets
+from carom.auditing.targets.facing import (
+    diameter,
+    facing_facets,
+    share_by_angle,
+    share_by_distance,
+)
 from carom.auditing.targets.seen import View, shapes_at
 
 NEGLIGIBLE = 1e-14
@@ -139,7 +144,7 @@ class Rows:
             row.whole += whole_size(outline) * ring / len(corners)
         linear = kind_with(source.dimension - 1, len(corners))
         for g in faced:
-            for points, sizes in self._covered(outline, view, g, curved=kind != linear):
+            for points, sizes in self._covered(outline, view, (facet, g), curved=kind != linear):
                 of_part = shapes_at(linear, seen[corners], points)
                 shapes = shapes_at(kind, seen, points)
                 depth = 2.0 * np.pi * (shapes @ nodes[:, 0]) if source.revolution else 1.0
@@ -150,15 +155,30 @@ class Rows:
     def _row(self, node: int, fan: int) -> Row:
         return self.of.setdefault((node, fan), Row(np.zeros(self._source.dimension)))
 
-    def _covered(self, outline: Array, view: View, g: int, *, curved: bool) -> Iterator[Rule]:
-        """Yield the points of what a facet of the target covers of an outline, and weights."""
-        target = self._target
-        seen = view.of_points(self._y[target.facets[g]])
-        parts = target.parts(g)
+    def _covered(
+        self, outline: Array, view: View, facets: tuple[int, int], *, curved: bool
+    ) -> Iterator[Rule]:
+        """Yield the points of what a facet of the target covers of an outline, and weights.
+
+        `facets` are the one that the outline is of, and that of the target.
+        """
+        target, nodes = self._target, self._y[self._target.facets[facets[1]]]
+        seen = view.of_points(nodes)
+        sizes = (diameter(self._x[self._source.facets[facets[0]]]), diameter(nodes))
+        parts = target.parts(facets[1])
         for corners in parts:
-            for simplex in cut(common(outline, oriented(seen[corners]))):
-                if size(simplex) > NEGLIGIBLE * whole_size(outline):
-                    yield rule_over(simplex, curved=curved or len(parts) > 1)
+            opposite = View.of(nodes[corners])
+            share = share_by_angle(view, opposite)
+            if share == 0.0:
+                continue
+            shared = common(outline, oriented(seen[corners]))
+            if not len(shared):
+                continue
+            share *= share_by_distance(view, opposite, sizes, shared)
+            for simplex in cut(shared):
+                if share > 0.0 and size(simplex) > NEGLIGIBLE * whole_size(outline):
+                    points, weights = rule_over(simplex, curved=curved or len(parts) > 1)
+                    yield points, share * weights
 
     def _seen(self, piece: _Piece) -> tuple[Indices, Array]:
         """Return what faces the points of a piece along the normal of its plane."""
