@@ -2,7 +2,6 @@
 
 import numpy as np
 import pytest
-from grazing_discs import discs
 from refuting import confirmed, refuted_after
 
 import carom
@@ -10,6 +9,7 @@ from carom.auditing.targets.covering import Covering
 from carom.auditing.targets.curve import Curve
 from carom.auditing.targets.mortar import Rows
 from carom.auditing.targets.sheet import FlatPatches, Sheet
+from grazing_discs import discs
 from tampered import in_case, in_h5
 
 END = "audit.h5:steps/000001/end"
