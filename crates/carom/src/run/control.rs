@@ -29,7 +29,7 @@ const LARGEST_DEBT: f64 = 1e-3;
 
 /// The same of a step that is no shorter than a part of a whole one: its halves may leave nothing over.
 const DEBT_OF_LONG_STEP: f64 = 1e-10;
-const LONG: f64 = 0.3;
+const LONG: f64 = 0.1;
 
 /// What waits for vibration may grow by this part of it in a step: nodes that have given way to a load come to rest only by and by.
 const GROWTH: f64 = 0.1;
