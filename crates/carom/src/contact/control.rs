@@ -27,8 +27,11 @@ pub(super) struct Control {
     pub held_compliance: [f64; 2],
     /// Sliding below this, relative to the motion of the contact, is round-off.
     pub no_sliding: f64,
-    /// No contact problem is solved more loosely than this.
+    /// No contact problem is solved more loosely than this,
     pub loosest: f64,
+    /// nor more finely, and in more iterations where that is finer than its solver was given.
+    pub finest: f64,
+    pub fine_iterations: usize,
     /// A normal that turns so many times as much as the last correction would on a circle of the size of the smaller body has crossed a kink,
     pub kink: f64,
     /// unless it turns by no more than this.
@@ -82,6 +85,8 @@ pub(super) const CONTROL: Control = Control {
     held_compliance: [1.0, 1e-3],
     no_sliding: 1e-9,
     loosest: 1e-4,
+    finest: 2e-15,
+    fine_iterations: 200,
     kink: 1e3,
     straight: 1e-6,
     sliding: 1e-6,

@@ -34,6 +34,7 @@ use self::contact_work::ContactWork;
 use self::control::CONTROL;
 use self::islands::Islands;
 use self::on_masses::OnMasses;
+pub(crate) use self::reduced::Accuracy;
 use self::reduced::Reduced;
 use self::slip::Slip;
 use self::stiffened::{OfReactions, Stiffened};
@@ -197,10 +198,10 @@ impl<const D: usize> Contacts<D> {
         &mut self,
         given: &Given<'_, D>,
         motion: &[Vector<D>],
-        error: f64,
+        accuracy: Accuracy,
         bodies: &mut [Box<dyn Body<D>>],
     ) -> Result<f64, StepError> {
-        self.reduced.solve(given, &mut self.active, motion, error, bodies)
+        self.reduced.solve(given, &mut self.active, motion, accuracy, bodies)
     }
 
     /// Whether contacts have lost what held them where iterations have led: see [`ActiveSet::let_go`].

@@ -24,12 +24,25 @@ fn size<const D: usize>(problem: &ContactProblem<D>, reactions: &[Vector<D>]) ->
     squares(&problem.q).max(squares(reactions) / problem.natural_stiffness().powi(2)).sqrt()
 }
 
-/// The tolerance of a contact problem of this `size` [m] whose motions may be wrong by `error` [m]. It is at least the tolerance that is asked for.
-fn tolerance(contacts: usize, size: f64, error: f64, least: f64) -> f64 {
-    if error == 0.0 {
-        return least;
+/// How wrong the motions of contacts may be [m].
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Accuracy {
+    /// In an iteration after which others come.
+    Passing(f64),
+    /// In what may be the last one.
+    Last(f64),
+}
+
+impl Accuracy {
+    /// The tolerance of a problem of so many contacts and this `size` [m]. Passing it is at least the one that is `given`, and in the end at most: where nodes
+    /// without mass have hardly any stiffness, motions without reactions are a million times as large as any that there are.
+    fn tolerance(self, contacts: usize, size: f64, given: f64) -> f64 {
+        let relative = |error: f64| error * (contacts as f64).sqrt() / size;
+        match self {
+            Self::Passing(error) => relative(error).min(CONTROL.loosest).max(given),
+            Self::Last(error) => relative(error).max(CONTROL.finest).min(given),
+        }
     }
-    (error * (contacts as f64).sqrt() / size).min(CONTROL.loosest).max(least)
 }
 
 /// The reduced problem of a step and what leads to it.
@@ -157,15 +170,15 @@ impl<const D: usize> Reduced<D> {
         stiffened.prepare(given, active, motion, compliances);
     }
 
-    /// Solves the reduced problem of the contacts, so that their motions are wrong by about `error` [m] if that is not zero. The bodies in
-    /// contact are between [`Body::begin_solve`] and [`Body::end_solve`], and are given the change of the reactions. Returns what the tolerance
-    /// of the friction solver leaves of any motion [m]: less cannot be had by iterating on.
+    /// Solves the reduced problem of the contacts to some `accuracy`. The bodies in contact are between [`Body::begin_solve`] and
+    /// [`Body::end_solve`], and are given the change of the reactions. Returns what the tolerance that was reached leaves of any motion [m]: less cannot be had by
+    /// iterating on.
     pub fn solve(
         &mut self,
         given: &Given<'_, D>,
         active: &mut ActiveSet<D>,
         motion: &[Vector<D>],
-        error: f64,
+        accuracy: Accuracy,
         bodies: &mut [Box<dyn Body<D>>],
     ) -> Result<f64, StepError> {
         let Given { assembly, method, .. } = *given;
@@ -184,12 +197,22 @@ impl<const D: usize> Reduced<D> {
         }
         let motions = size(&self.problem, &[]);
         let size = size(&self.problem, &active.reactions);
-        let tolerance = tolerance(active.reactions.len(), size, error, method.stopping.tolerance);
-        let stopping = StoppingRule { tolerance, ..method.stopping };
+        let given_tolerance = method.stopping.tolerance;
+        let mut tolerance = accuracy.tolerance(active.reactions.len(), size, given_tolerance);
         let mut time = Duration::ZERO;
         let mut solve = |problem: &ContactProblem<D>, reactions: &mut [Vector<D>]| {
-            let report = method.solver.solve(problem, reactions, &stopping);
+            let is_fine = tolerance < given_tolerance;
+            let iterations = if is_fine { CONTROL.fine_iterations } else { usize::MAX };
+            let max_iterations = iterations.min(method.stopping.max_iterations);
+            let stopping = StoppingRule { tolerance, max_iterations, ..method.stopping };
+            let mut report = method.solver.solve(problem, reactions, &stopping);
             time += report.time;
+            if is_fine && !report.is_solved() {
+                // Round-off is in the way.
+                tolerance = given_tolerance;
+                report = method.solver.solve(problem, reactions, &method.stopping);
+                time += report.time;
+            }
             report
         };
         let report = loop {
@@ -218,7 +241,7 @@ impl<const D: usize> Reduced<D> {
         self.give(assembly, active, bodies);
         // With the stiffness of reactions W may be indefinite, and has no natural stiffness by which reactions were motions.
         let size = if self.delassus.stiffened.of_reactions == OfReactions::None { size } else { motions };
-        Ok(method.stopping.tolerance * size)
+        Ok(tolerance.min(given_tolerance) * size)
     }
 
     /// Writes the motion with the reactions known so far.

@@ -11,8 +11,8 @@ use super::newton::load_step::{LoadStep, Verdict};
 use super::stability::{self, about_to_give_way, is_in_question};
 use super::workspace::Workspace;
 use crate::body::{Body, Guess, Tangent};
-use crate::contact::Contacts;
 use crate::contact::stiffened::{OfReactions, Stiffened};
+use crate::contact::{Accuracy, Contacts};
 use crate::error::StepError;
 use crate::model::given::Given;
 use crate::model::state::State;
@@ -197,7 +197,7 @@ fn solve<const D: usize>(
     begin_solves(bodies, given, reacts, work);
     let mut left = 0.0;
     if reacts {
-        left = work.contacts.solve(given, &work.motion, 0.0, &mut work.bodies)?;
+        left = work.contacts.solve(given, &work.motion, Accuracy::Last(f64::INFINITY), &mut work.bodies)?;
     }
     end_solves(bodies, given, work)?;
     Ok(left)

@@ -9,7 +9,7 @@ use super::newton::acceleration::Last;
 use super::newton::control::CONTROL;
 use super::newton::convergence::Convergence;
 use super::workspace::Workspace;
-use crate::contact::Contacts;
+use crate::contact::{Accuracy, Contacts};
 use crate::error::StepError;
 use crate::model::each_body::{PerBody, try_each_body};
 use crate::model::given::Given;
@@ -112,13 +112,10 @@ fn iterate_bodies<const D: usize>(
             contacts.stiffen(given, motion, bodies, &mut newton.residual);
         }
         begin_solves(bodies, given, reacts, work);
-        let mut error = 0.0;
+        let count = work.contacts.active.contacts.len();
+        let accuracy = convergence.accuracy(count, nearly_settled, bodies, &work.newton.progress);
         if reacts {
-            if !nearly_settled {
-                let count = work.contacts.active.contacts.len();
-                error = convergence.contact_error(count, bodies, &work.newton.progress);
-            }
-            match work.contacts.solve(given, &work.motion, error, &mut work.bodies) {
+            match work.contacts.solve(given, &work.motion, accuracy, &mut work.bodies) {
                 Ok(left) => convergence.left_by_contacts = left,
                 Err(StepError::Friction { .. }) if work.contacts.is_stiffened() => {
                     // With the stiffness of reactions a compliance may be indefinite.
@@ -144,7 +141,7 @@ fn iterate_bodies<const D: usize>(
             return go_on(bodies, iteration, given, next, work);
         }
         if settled? {
-            if error == 0.0 {
+            if !reacts || matches!(accuracy, Accuracy::Last(_)) {
                 return Ok(iteration);
             }
             nearly_settled = true;

@@ -34,6 +34,8 @@ pub(crate) struct Control {
     pub loose: f64,
     /// The same in last corrections, as long as it is not known how fast they shrink.
     pub loose_at_first: f64,
+    /// What it may be wrong by in the end, in the correction that is wanted.
+    pub part_of_contacts: f64,
     /// An iteration may be the last one if the correction that is expected of it is within so many times of what is wanted.
     pub near: f64,
     /// After so many an iteration is late, and a normal that jumps has crossed a kink of its target, which no smaller correction will undo.
@@ -68,6 +70,7 @@ pub(crate) const CONTROL: Control = Control {
     many_contacts: 100,
     loose: 1e-3,
     loose_at_first: 1e-9,
+    part_of_contacts: 0.03,
     near: 30.0,
     late: 6,
     blended_late: 16,

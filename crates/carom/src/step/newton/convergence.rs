@@ -1,6 +1,7 @@
 //! When the iterations of a step have ended, are slow, or lead astray.
 
 use super::control::CONTROL;
+use crate::contact::Accuracy;
 use crate::error::StepError;
 use crate::model::given::Given;
 use crate::scheme::StressRule;
@@ -131,25 +132,30 @@ impl Convergence {
         self.stalled = 0;
     }
 
-    /// How wrong the motion of so many `contacts` may be after the next iteration [m]. Where that may be the last one, it must
-    /// not be wrong at all, but for the tolerance of their problem.
-    pub fn contact_error(&self, contacts: usize, bodies: &[usize], progress: &[BodyProgress]) -> f64 {
-        if contacts < CONTROL.many_contacts {
-            return 0.0;
-        }
+    /// How wrong the motion of so many `contacts` may be after the next iteration, which the last one has `nearly_settled` or not.
+    pub fn accuracy(
+        &self,
+        contacts: usize,
+        nearly_settled: bool,
+        bodies: &[usize],
+        progress: &[BodyProgress],
+    ) -> Accuracy {
         let largest =
             |of: fn(&BodyProgress) -> f64| bodies.iter().map(|&i| of(&progress[i])).fold(0.0, f64::max);
         let motion = largest(|p| p.motion);
         let expected = largest(|p| p.correction * p.contraction);
-        if expected <= CONTROL.near * self.wanted(motion) {
-            return 0.0;
+        if nearly_settled
+            || contacts < CONTROL.many_contacts
+            || expected <= CONTROL.near * self.wanted(motion)
+        {
+            return Accuracy::Last(CONTROL.part_of_contacts * self.exact(motion));
         }
         let known = largest(|p| p.contraction) < 1.0;
-        if known {
+        Accuracy::Passing(if known {
             CONTROL.loose * expected
         } else {
             CONTROL.loose_at_first * largest(|p| p.correction).min(motion)
-        }
+        })
     }
 
     /// Takes note of a correction [m]; whether it has been long since one was much smaller than those before.
@@ -175,7 +181,12 @@ impl Convergence {
 
     /// The correction that may be left where the largest motion in the step is `motion` [m].
     fn wanted(&self, motion: f64) -> f64 {
-        (self.tolerance * motion).max(self.round_off).max(self.left_by_contacts)
+        self.exact(motion).max(self.left_by_contacts)
+    }
+
+    /// The same if contacts leave nothing.
+    fn exact(&self, motion: f64) -> f64 {
+        (self.tolerance * motion).max(self.round_off)
     }
 
     /// Refuses iterations that lead away from where they set out.
@@ -296,11 +307,12 @@ mod tests {
         let error = |contacts, corrections: &[f64]| {
             let mut progress = BodyProgress::new(1.0);
             corrections.iter().for_each(|&c| progress.note(c, 1.0));
-            convergence.contact_error(contacts, &[0], &[progress])
+            convergence.accuracy(contacts, false, &[0], &[progress])
         };
-        assert_eq!(error(CONTROL.many_contacts, &[]), CONTROL.loose_at_first);
-        assert_eq!(error(CONTROL.many_contacts, &[0.5, 0.125]), CONTROL.loose * 0.125 / 4.0);
-        assert_eq!(error(CONTROL.many_contacts, &[1e-6, 1e-8]), 0.0);
-        assert_eq!(error(CONTROL.many_contacts - 1, &[0.5, 0.1]), 0.0);
+        let many = CONTROL.many_contacts;
+        assert_eq!(error(many, &[]), Accuracy::Passing(CONTROL.loose_at_first));
+        assert_eq!(error(many, &[0.5, 0.125]), Accuracy::Passing(CONTROL.loose * 0.125 / 4.0));
+        assert_eq!(error(many, &[1e-6, 1e-8]), Accuracy::Last(CONTROL.part_of_contacts * 1e-10));
+        assert_eq!(error(many - 1, &[0.5, 0.1]), Accuracy::Last(CONTROL.part_of_contacts * 1e-10));
     }
 }
