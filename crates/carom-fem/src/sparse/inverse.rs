@@ -9,7 +9,7 @@ use crate::FemError;
 /// The inverse of a symmetric positive definite matrix of D × D blocks over a node graph, exact or good enough to iterate with.
 ///
 /// Exact it is a [`Factor`]. A polynomial of the matrix stands for its inverse, and nothing is factorised, where three things hold. The
-/// factor would be large, single precision will do, and the matrix is so well-conditioned that a few products with it gain the digits an
+/// factor would be large, an approximation will do, and the matrix is so well-conditioned that a few products with it gain the digits an
 /// iteration needs.
 #[derive(Debug)]
 pub struct Inverse<const D: usize> {
@@ -64,16 +64,22 @@ impl<const D: usize> Inverse<D> {
         self.next_last.len() >= CONTROL.gathered && (self.next_last.len() as f64) <= surface
     }
 
-    /// Makes the inverse of `matrix`, exact but for round-off if `precision` is double.
+    /// Makes the inverse of `matrix`: a factor in this `precision`, or what is good enough to iterate with if it may be `approximate`.
     ///
     /// # Errors
     /// If the matrix is not positive definite, or memory is lacking.
-    pub fn make(&mut self, precision: Precision, matrix: &NodalMatrix<Matrix<D>>) -> Result<(), FemError> {
+    pub fn make(
+        &mut self,
+        precision: Precision,
+        approximate: bool,
+        matrix: &NodalMatrix<Matrix<D>>,
+    ) -> Result<(), FemError> {
         self.precision = precision;
-        let suits = precision == Precision::Single && self.ties.is_empty();
+        let suits = approximate && self.ties.is_empty();
         let entries = self.sharing.as_ref().map_or(matrix.values.len(), |s| s.graph.entry_count());
         if suits && entries >= CONTROL.many {
             if let Some(polynomial) = Chebyshev::of(matrix, self.sharing.as_ref())? {
+                self.precision = Precision::Single;
                 self.kind = Kind::Polynomial(Box::new(polynomial));
                 return Ok(());
             }

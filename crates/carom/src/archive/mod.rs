@@ -17,7 +17,7 @@ pub struct Checkpoint {
 
 impl Checkpoint {
     /// Version of what is kept and of its names.
-    pub const SCHEMA: u64 = 21;
+    pub const SCHEMA: u64 = 22;
 }
 
 /// Why a run cannot be a checkpoint, or a checkpoint not the run.

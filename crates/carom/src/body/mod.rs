@@ -10,7 +10,6 @@ pub(crate) mod reduced;
 pub(crate) mod rigid;
 
 use carom_fem::material::PlasticState;
-use carom_fem::sparse::Precision;
 use carom_mesh::{Matrix, Vector};
 
 use crate::StepMap;
@@ -31,8 +30,8 @@ pub struct Interval {
     pub whole: f64,
     /// Whether time only says how far loads have come: what is prescribed has no velocity.
     pub is_load_step: bool,
-    /// The numbers that factors are kept in.
-    pub precision: Precision,
+    /// Whether inverses need not be exact: polynomials, and factors in single precision of bodies whose nodes all have mass.
+    pub approximates: bool,
     /// Whether stresses of start and end are blended so that massless contact keeps the energy: see [`Body::balance`].
     pub is_blended: bool,
 }

@@ -1,4 +1,3 @@
-use carom_fem::sparse::Precision;
 use carom_friction::{FrictionSolver, StoppingRule};
 
 use crate::body::Interval;
@@ -62,7 +61,7 @@ impl<const D: usize> Method<D> {
             end,
             whole: dt,
             is_load_step: self.scheme == Scheme::Static,
-            precision: self.precision(),
+            approximates: self.approximates(),
             is_blended: self.is_blended(),
         }
     }
@@ -75,15 +74,10 @@ impl<const D: usize> Method<D> {
         self.penetration_tolerance * cell + arcs + let_in
     }
 
-    /// The numbers that factors are kept in. They have double precision in a static analysis, where no mass keeps K̄
-    /// well-conditioned. So they do with massless contact, whose balance of energy sees the last correction itself and not its
-    /// square.
-    fn precision(&self) -> Precision {
-        if self.scheme == Scheme::Static || self.condition.is_massless() {
-            Precision::Double
-        } else {
-            Precision::Single
-        }
+    /// Whether inverses need not be exact. They are in a static analysis, where no mass keeps K̄ well-conditioned, and with massless contact whose balance of
+    /// energy sees the last correction itself and not its square. What corrections leave of it blended steps make good.
+    fn approximates(&self) -> bool {
+        self.scheme != Scheme::Static && (!self.condition.is_massless() || self.is_blended())
     }
 
     /// Whether what normal reactions take on landing is given back, in pairs that rule the motion. Without inertia nothing lands.

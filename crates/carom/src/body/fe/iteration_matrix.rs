@@ -89,7 +89,8 @@ struct Origin<const D: usize> {
     dt: f64,
     /// How much they steadied nodes without mass.
     steadying: f64,
-    precision: Precision,
+    /// Whether it need not be exact.
+    is_approximate: bool,
     /// Frame of the body.
     frame: Matrix<D>,
     /// u [m].
@@ -154,7 +155,7 @@ impl<const D: usize> IterationMatrix<D> {
             origin: Origin {
                 dt: 0.0,
                 steadying: 0.0,
-                precision: Precision::Double,
+                is_approximate: false,
                 frame: Matrix::identity(),
                 displacement: vec![Vector::zeros(); body.node_count()],
                 history: body.virgin(),
@@ -203,10 +204,9 @@ impl<const D: usize> IterationMatrix<D> {
             return Ok(false);
         }
         let mut origin = self.origin.clone();
-        let mut is_double = origin.precision == Precision::Double;
         archive.numbers(&name("dt"), [&mut origin.dt])?;
         archive.numbers(&name("steadying"), [&mut origin.steadying])?;
-        archive.flags(&name("is_double"), [&mut is_double])?;
+        archive.flags(&name("is_approximate"), [&mut origin.is_approximate])?;
         archive.numbers(&name("frame"), origin.frame.iter_mut())?;
         archive.vectors(&name("displacement"), &mut origin.displacement)?;
         archive.plastic(&name("plastic"), &mut origin.history)?;
@@ -217,10 +217,9 @@ impl<const D: usize> IterationMatrix<D> {
         if origin.dt <= 0.0 {
             return Err(CheckpointError::new(&name("dt"), "is not positive"));
         }
-        let precision = if is_double { Precision::Double } else { Precision::Single };
         let with_history = body.after(&origin.history).grown(origin.growth);
         let map = StepMap { steadying: origin.steadying, ..map(origin.dt) };
-        self.factorize(&with_history, &map, &origin.displacement, &origin.frame, precision)
+        self.factorize(&with_history, &map, &origin.displacement, &origin.frame, origin.is_approximate)
             .map_err(|e| CheckpointError::new(&name("displacement"), e.to_string()))?;
         Ok(true)
     }
@@ -232,7 +231,7 @@ impl<const D: usize> IterationMatrix<D> {
 
     /// Makes the factor with the stiffness at `u`, where the frame of the body is `frame`.
     ///
-    /// The factor is kept in `precision` (see [`crate::body::Interval::precision`]), and is exact where that is double.
+    /// It may be `approximate` where that will do (see [`crate::body::Interval::approximates`]).
     ///
     /// A configuration under strong compression, or a guess on the way to one, may be where K̄ is indefinite. The stiffness of the
     /// reference configuration, turned, serves there: slower, but it never is.
@@ -242,15 +241,15 @@ impl<const D: usize> IterationMatrix<D> {
         map: &StepMap,
         u: &[Vector<D>],
         frame: &Matrix<D>,
-        precision: Precision,
+        approximate: bool,
     ) -> Result<(), StepError> {
-        self.factorize_at(with_history, map, u, frame, precision).or_else(|_| {
+        self.factorize_at(with_history, map, u, frame, approximate).or_else(|_| {
             self.factorize_at(
                 &with_history.body.after(&[]),
                 map,
                 &vec![Vector::zeros(); u.len()],
                 &Matrix::identity(),
-                precision,
+                approximate,
             )?;
             self.turn_to(frame);
             Ok::<(), StepError>(())
@@ -260,7 +259,7 @@ impl<const D: usize> IterationMatrix<D> {
         displacement.copy_from_slice(u);
         history.copy_from_slice(with_history.history());
         (self.origin.dt, self.origin.steadying) = (map.dt, map.steadying);
-        (self.origin.precision, self.origin.frame) = (precision, *frame);
+        (self.origin.is_approximate, self.origin.frame) = (approximate, *frame);
         Ok(())
     }
 
@@ -369,12 +368,15 @@ impl<const D: usize> IterationMatrix<D> {
         map: &StepMap,
         u: &[Vector<D>],
         frame: &Matrix<D>,
-        precision: Precision,
+        approximate: bool,
     ) -> Result<(), StepError> {
         let mut stiffness = Self::stiffness_of_step(with_history, map, u, frame);
         self.coefficients = None;
         self.held.uncouple(&mut stiffness);
-        self.inverse.make(precision, &stiffness)?;
+        // Where nodes have no mass, something else than mass resists a translation: a factor in single precision would change momentum.
+        let has_digits = !approximate || !with_history.body.massless().is_empty();
+        let precision = if has_digits { Precision::Double } else { Precision::Single };
+        self.inverse.make(precision, approximate, &stiffness)?;
         let coefficients = Self::coefficients(map);
         let [_, c, m, _] = coefficients;
         self.coefficients = Some(coefficients);

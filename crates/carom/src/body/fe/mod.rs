@@ -15,7 +15,7 @@ pub(crate) mod supports;
 use std::sync::Arc;
 
 use carom_fem::material::PlasticState;
-use carom_fem::sparse::{Inverse, Precision};
+use carom_fem::sparse::Inverse;
 use carom_fem::{MassSolver, Vibration};
 use carom_mesh::{Matrix, Vector, nodal, tensor};
 
@@ -122,11 +122,11 @@ impl<const D: usize> FeBody<D> {
         &mut self,
         interval: &Interval,
         history: &[PlasticState],
-        precision: Precision,
+        approximate: bool,
     ) -> Result<(), StepError> {
         let growth = self.part.growth_of_forces(interval);
         let with_history = self.part.body.after(history).grown(growth);
-        self.matrix.factorize(&with_history, &interval.map, &self.middle, &self.pose.frame, precision)
+        self.matrix.factorize(&with_history, &interval.map, &self.middle, &self.pose.frame, approximate)
     }
 
     /// The work of supports [J], whose forces are added to `support` [N], at the final motion of a step.
@@ -222,7 +222,7 @@ impl<const D: usize> Body<D> for FeBody<D> {
         let speed = v.iter().map(Vector::norm_squared).fold(0.0, f64::max).sqrt();
         let is_factorised = !self.matrix.fits(&interval.map);
         if is_factorised {
-            self.factorise(interval, start.history, interval.precision)?;
+            self.factorise(interval, start.history, interval.approximates)?;
         }
         self.matrix.turn_to(&self.pose.frame);
         Ok(Forecast { speed, acceleration: self.part.gravity.norm(), driven, is_factorised })
@@ -271,8 +271,8 @@ impl<const D: usize> Body<D> for FeBody<D> {
         nodal::each(&mut self.middle, ends, |m, [u0, u1]| *m = (u0 + u1) * 0.5);
         // A fresh factor that is no better may lack digits. A polynomial has replaced one only where these do not matter.
         let lacks_digits = again && self.matrix.is_exact();
-        let precision = if lacks_digits { Precision::Double } else { guess.interval.precision };
-        self.factorise(guess.interval, guess.start.history, precision)
+        let approximate = guess.interval.approximates && !lacks_digits;
+        self.factorise(guess.interval, guess.start.history, approximate)
     }
 
     fn tangent_worth(&self) -> i32 {

@@ -100,7 +100,7 @@ impl<const D: usize> ForeignBody<D> {
         let mut matrix = filled(self.mass.shared_graph(), &blocks);
         matrix.values.iter_mut().zip(&self.mass.values).for_each(|(k, mass)| *k += mass * m);
         self.held.uncouple(&mut matrix);
-        self.inverse.make(Precision::Double, &matrix)?;
+        self.inverse.make(Precision::Double, false, &matrix)?;
         self.made_for = Some(map.dt);
         self.generation += 1;
         Ok(())
