@@ -17,7 +17,7 @@ def test_books_of_a_collision_close_to_round_off(condition, friction):
         if friction == 0.0:
             assert run.energy("max_drift") < 2e-13
     momentum, angular = round_targets.momentum_changes(run)
-    # Measured: 1.2e-15, and 9.0e-14 with massless contact and friction, what the last correction leaves.
+    # Measured: 1.2e-15; with massless contact and friction 9.0e-14, what corrections leave.
     assert momentum < 5e-13
     # With friction, a contact that lands within a step is rubbed across the gap that it had.
     if condition == "massless" or (condition, friction) == ("midpoint", 0.0):
