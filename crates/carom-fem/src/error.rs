@@ -100,6 +100,19 @@ pub enum FemError {
         "the cells do not hang together, so that parts of the body move for nothing; make one body of each part"
     )]
     InPieces,
+    /// A factor would outgrow the memory.
+    #[error(
+        "a factor of {unknowns} unknowns takes {needed:.1} GB of memory at least, and {free:.1} GB are free: \
+         take larger cells, or in time steps in which a wave crosses no more than a cell or two, for which large bodies need no factor"
+    )]
+    Memory {
+        /// Unknowns of the body.
+        unknowns: usize,
+        /// What the factor takes [GB].
+        needed: f64,
+        /// What there is [GB].
+        free: f64,
+    },
     /// The ordering of a sparse matrix failed.
     #[error("the symbolic factorisation failed: {0}")]
     Symbolic(String),

@@ -170,3 +170,10 @@ pub enum StepError {
     #[error(transparent)]
     Matrix(#[from] FemError),
 }
+
+impl StepError {
+    /// Whether what failed was a factor that the memory does not suffice for.
+    pub(crate) fn is_of_memory(&self) -> bool {
+        matches!(self, Self::Matrix(FemError::Memory { .. }))
+    }
+}

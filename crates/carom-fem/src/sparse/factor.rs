@@ -13,6 +13,7 @@ use faer::{Par, Side, Spec};
 
 use super::NodeGraph;
 use super::folding::Folding;
+use super::memory;
 use super::ordering::nested_dissection;
 use super::row::ABREAST;
 use super::triangular::{Precision, Triangular};
@@ -120,13 +121,18 @@ impl<const D: usize> Factor<D> {
     /// `precision`. What else it takes is given back: a factor is made seldom, and in space it is most of the memory.
     ///
     /// # Errors
-    /// If the matrix is not positive definite.
+    /// If the matrix is not positive definite, or the memory does not suffice.
     pub fn factorize(
         &mut self,
         precision: Precision,
         block: impl Fn(usize) -> Matrix<D>,
     ) -> Result<(), FemError> {
         self.factorized = false;
+        let kept = match precision {
+            Precision::Single => size_of::<f32>(),
+            Precision::Double => size_of::<f64>(),
+        };
+        memory::check(self.ordering.len(), (self.value_count() * (size_of::<f64>() + kept)) as u64)?;
         self.precision = precision;
         self.triangular = precision.triangular();
         let lower_values = match &self.folding {

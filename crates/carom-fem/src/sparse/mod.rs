@@ -8,6 +8,7 @@ mod folding;
 mod graph;
 mod inverse;
 mod last_panel;
+mod memory;
 mod nodal_matrix;
 mod ordering;
 mod pieces;

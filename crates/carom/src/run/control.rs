@@ -74,13 +74,14 @@ impl<const D: usize> Stepper<'_, D> {
                     if self.method.bridges && is_short {
                         let there = end - dt * ((whole - done - size) as f64 / whole as f64);
                         if !self.bridge(there, &mut observe) {
-                            return Err(self.error(length, reason));
+                            return Err(self.error(length, (whole / size).trailing_zeros(), reason));
                         }
                         done += size;
                         continue;
                     }
-                    if size == 1 {
-                        return Err(self.error(length, reason));
+                    // Short steps may do without a factor, load steps never do.
+                    if size == 1 || load_steps && reason.is_of_memory() {
+                        return Err(self.error(length, (whole / size).trailing_zeros(), reason));
                     }
                     size /= 2;
                 }

@@ -32,12 +32,12 @@ pub(crate) struct Stepper<'a, const D: usize> {
 }
 
 impl<const D: usize> Stepper<'_, D> {
-    /// Why the run ends here.
-    pub fn error(&self, length: f64, reason: StepError) -> RunError {
+    /// Why the run ends here, with a step of this `length` [s] after so many `halvings`.
+    pub fn error(&self, length: f64, halvings: u32, reason: StepError) -> RunError {
         RunError {
             time: self.state.time,
             time_step: length,
-            halvings: self.method.max_halvings,
+            halvings,
             reason,
             crushed: CrushedCells::find(self.model, self.state, |_| true)
                 .map(|cells| Box::new(cells.of(self.model))),

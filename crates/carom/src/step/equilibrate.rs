@@ -303,16 +303,16 @@ fn hold<const D: usize>(
             softest_spring,
             is_first,
         };
-        let made = body.linearise(guess, &tangent);
-        if made.is_ok() {
-            return Ok(tries);
+        let Err(error) = body.linearise(guess, &tangent) else { return Ok(tries) };
+        if error.is_of_memory() {
+            return Err(error);
         }
         if stiffened.support_more(number) {
             continue;
         }
         holding.raise_for_good();
         if holding.share > LOAD_STEP.largest {
-            made?;
+            return Err(error);
         }
     }
     unreachable!("the share grows beyond its largest")
