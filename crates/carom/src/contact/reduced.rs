@@ -54,6 +54,8 @@ pub(crate) struct Reduced<const D: usize> {
     pub offsets: Vec<Vector<D>>,
     /// The reactions that the friction solver last started from.
     pub guess: Vec<Vector<D>>,
+    /// Those that its last call started from.
+    start: Vec<Vector<D>>,
     /// The solver that gave the last reactions.
     pub solved_by: SolverKind,
     /// Time spent in the friction solver so far.
@@ -76,6 +78,7 @@ impl<const D: usize> Reduced<D> {
             problem: ContactProblem::default(),
             offsets: Vec::new(),
             guess: Vec::new(),
+            start: Vec::new(),
             solved_by: SolverKind::default(),
             friction_time: Duration::ZERO,
             nodes: vec![Vec::new(); assembly.body_count()],
@@ -200,15 +203,19 @@ impl<const D: usize> Reduced<D> {
         let given_tolerance = method.stopping.tolerance;
         let mut tolerance = accuracy.tolerance(active.reactions.len(), size, given_tolerance);
         let mut time = Duration::ZERO;
+        let mut start = std::mem::take(&mut self.start);
         let mut solve = |problem: &ContactProblem<D>, reactions: &mut [Vector<D>]| {
             let is_fine = tolerance < given_tolerance;
             let iterations = if is_fine { CONTROL.fine_iterations } else { usize::MAX };
             let max_iterations = iterations.min(method.stopping.max_iterations);
             let stopping = StoppingRule { tolerance, max_iterations, ..method.stopping };
+            start.clear();
+            start.extend_from_slice(reactions);
             let mut report = method.solver.solve(problem, reactions, &stopping);
             time += report.time;
             if is_fine && !report.is_solved() {
-                // Round-off is in the way.
+                // Round-off is in the way: as if nothing finer had been tried.
+                reactions.copy_from_slice(&start);
                 tolerance = given_tolerance;
                 report = method.solver.solve(problem, reactions, &method.stopping);
                 time += report.time;
@@ -228,6 +235,7 @@ impl<const D: usize> Reduced<D> {
                 break report;
             }
         };
+        self.start = start;
         self.solved_by = report.solver;
         self.friction_time += time;
         if !report.is_solved() {
