@@ -5,11 +5,11 @@ use std::f64::consts::TAU;
 use carom_mesh::Vector;
 use smallvec::SmallVec;
 
-use super::clip::{cut, intersection, simplices, size};
+use super::clip::{cut, simplices, size};
 use super::plane::{Image, Plane};
 use super::quadrature::rule;
 use super::row::Row;
-use super::share::{by_angle, by_distance};
+use super::share::common_part;
 use crate::ContactSurface;
 use crate::parts::{MAX_FACET_NODES, parts};
 use crate::path::Positions;
@@ -69,18 +69,10 @@ pub(super) fn integrate<const D: usize>(
                 let opposite: SmallVec<[Vector<D>; 4]> =
                     target_corners.iter().map(|&a| position(target.nodes[a])).collect();
                 let Some(opposite) = Plane::through(&opposite) else { continue };
-                let mut share = by_angle(&plane, &opposite);
-                if share == 0.0 {
+                let outlines = [&outline, &other.polygon(target_corners)];
+                let Some((common, share)) = common_part([&plane, &opposite], outlines, sizes) else {
                     continue;
-                }
-                let common = intersection(dimension, &outline, &other.polygon(target_corners));
-                if common.is_empty() {
-                    continue;
-                }
-                share *= by_distance([&plane, &opposite], sizes, &common);
-                if share == 0.0 {
-                    continue;
-                }
+                };
                 for simplex in cut(dimension, &common) {
                     let simplex_size = size(dimension, &simplex);
                     if simplex_size <= MORTAR.negligible * whole {

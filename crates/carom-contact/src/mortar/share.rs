@@ -1,21 +1,36 @@
 //! How much two planes of facets face one another: by degrees, so that what a multiplier sees never leaps while bodies move and turn.
 
-use super::clip::Polygon;
+use super::clip::{Polygon, intersection};
 use super::plane::Plane;
 use crate::tolerances::MORTAR;
 
+/// What a part of the target in the plane `other` covers of the `outline` of one of the source in the plane `own`, where its own outline is the `window`, and
+/// the share of that which counts; none if nothing does. `sizes` [m] are the diameters of both facets.
+pub(super) fn common_part<const D: usize>(
+    [own, other]: [&Plane<D>; 2],
+    [outline, window]: [&Polygon; 2],
+    sizes: [f64; 2],
+) -> Option<(Polygon, f64)> {
+    let by_angle = by_angle(own, other);
+    if by_angle == 0.0 {
+        return None;
+    }
+    let common = intersection(D - 1, outline, window);
+    if common.is_empty() {
+        return None;
+    }
+    let share = by_angle * by_distance([own, other], sizes, &common);
+    (share > 0.0).then_some((common, share))
+}
+
 /// The share by the angle between two planes: 1 where they are opposite, 0 where they do not face one another.
-pub(super) fn by_angle<const D: usize>(own: &Plane<D>, other: &Plane<D>) -> f64 {
+fn by_angle<const D: usize>(own: &Plane<D>, other: &Plane<D>) -> f64 {
     rise(-own.normal().dot(&other.normal()), MORTAR.opposed)
 }
 
 /// The share by how far `other`, which is not at right angles, is before the plane `own` or behind it where both have the part `common`, which is
 /// not empty. `sizes` [m] are the diameters of both facets.
-pub(super) fn by_distance<const D: usize>(
-    [own, other]: [&Plane<D>; 2],
-    sizes: [f64; 2],
-    common: &Polygon,
-) -> f64 {
+fn by_distance<const D: usize>([own, other]: [&Plane<D>; 2], sizes: [f64; 2], common: &Polygon) -> f64 {
     let heights = common.iter().map(|point| own.height(other, point));
     let (low, high) = heights
         .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), height| (low.min(height), high.max(height)));

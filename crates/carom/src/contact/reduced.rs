@@ -54,7 +54,7 @@ pub(crate) struct Reduced<const D: usize> {
     pub offsets: Vec<Vector<D>>,
     /// The reactions that the friction solver last started from.
     pub guess: Vec<Vector<D>>,
-    /// Those that its last call started from.
+    /// Those that its last call started from which was finer than it was given.
     start: Vec<Vector<D>>,
     /// The solver that gave the last reactions.
     pub solved_by: SolverKind,
@@ -209,8 +209,10 @@ impl<const D: usize> Reduced<D> {
             let iterations = if is_fine { CONTROL.fine_iterations } else { usize::MAX };
             let max_iterations = iterations.min(method.stopping.max_iterations);
             let stopping = StoppingRule { tolerance, max_iterations, ..method.stopping };
-            start.clear();
-            start.extend_from_slice(reactions);
+            if is_fine {
+                start.clear();
+                start.extend_from_slice(reactions);
+            }
             let mut report = method.solver.solve(problem, reactions, &stopping);
             time += report.time;
             if is_fine && !report.is_solved() {

@@ -50,12 +50,6 @@ class Covering:
         """Return the kind of a facet."""
         return kind_with(self.dimension - 1, int(self._counts[facet]))
 
-    def corner_count(self, facet: int) -> int:
-        """Return how many corners a facet has."""
-        if self.dimension == 2:
-            return 2
-        return 3 if self._counts[facet] in (3, 6) else 4
-
     def parts(self, facet: int) -> list[list[int]]:
         """Return the corners of its parts with straight edges, by their numbers in the facet."""
         return (_HALVES if self.dimension == 2 else TILES)[int(self._counts[facet])]
