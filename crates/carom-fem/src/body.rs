@@ -12,6 +12,7 @@ use crate::ranks::{Ranks, Summed};
 use crate::shape_table::{Depth, facet_area};
 use crate::sparse::{NodalMatrix, NodeGraph};
 use crate::{BodySpec, FemError, Growth, Hypothesis, MassKind, PointMass, RayleighDamping};
+use carom_mesh::compiled;
 
 /// A node whose radius is below this, relative to the size of the body, is on the axis.
 const ON_THE_AXIS: f64 = 1e-9;
@@ -56,6 +57,8 @@ pub struct Body<const D: usize> {
     held: Held,
 }
 
+type Build<const D: usize> = fn(Mesh<D>, Surface, &BodySpec) -> Result<Body<D>, FemError>;
+
 impl<const D: usize> Body<D> {
     /// Builds the body.
     ///
@@ -71,6 +74,10 @@ impl<const D: usize> Body<D> {
     /// # Errors
     /// As for [`Body::new`].
     pub fn with_contact_surface(mesh: Mesh<D>, surface: Surface, spec: &BodySpec) -> Result<Self, FemError> {
+        compiled!(D, Body::build as Build)(mesh, surface, spec)
+    }
+
+    fn build(mesh: Mesh<D>, surface: Surface, spec: &BodySpec) -> Result<Self, FemError> {
         let laws = laws::<D>(spec)?;
         let depth = depth(&mesh, spec)?;
         // The axis is inside a body of revolution.

@@ -3,6 +3,7 @@
 //! Nothing here knows of forces. `D` is the dimension of space (2 or 3); coordinates are in metres.
 
 pub mod cell;
+pub mod dimension;
 mod error;
 pub mod generate;
 mod mesh;

@@ -41,6 +41,7 @@ use serde::{Deserialize, Serialize};
 use crate::{FemError, Hypothesis};
 pub use batch::{BATCH, Batch, LANES, MAX_POINTS};
 pub use blatz_ko::BlatzKo;
+use carom_mesh::compiled;
 pub use elastic_constants::ElasticConstants;
 pub use flowing::Flowing;
 pub use invariants::{ByInvariants, InvariantEnergy, Jet};
@@ -174,12 +175,21 @@ pub enum LawSpec {
     Unstressed,
 }
 
+type BuildPointLaw<const D: usize> = fn(&LawSpec, Hypothesis) -> Result<Arc<dyn PointLaw<D>>, FemError>;
+
 impl LawSpec {
     /// The law as elements see it under a hypothesis; where that takes nothing from the law, the law itself.
     ///
     /// # Errors
     /// If a material constant is out of range.
     pub fn point_law<const D: usize>(
+        &self,
+        hypothesis: Hypothesis,
+    ) -> Result<Arc<dyn PointLaw<D>>, FemError> {
+        compiled!(D, LawSpec::build_point_law as BuildPointLaw)(self, hypothesis)
+    }
+
+    fn build_point_law<const D: usize>(
         &self,
         hypothesis: Hypothesis,
     ) -> Result<Arc<dyn PointLaw<D>>, FemError> {

@@ -17,6 +17,7 @@ use self::lowest::lowest_modes;
 use self::reader::Reader;
 use crate::sparse::{Factor, NodalMatrix, Precision};
 use crate::{Body, FemError, Held};
+use carom_mesh::compiled;
 
 /// A mode has no stiffness where it has less than this part of that of the stiffest one: the mesh is in pieces, or a mechanism.
 const LOOSE: f64 = 1e-13;
@@ -37,12 +38,18 @@ pub struct Reduction<const D: usize> {
     reader: Reader<D>,
 }
 
+type Build<const D: usize> = fn(&Body<D>, usize) -> Result<Reduction<D>, FemError>;
+
 impl<const D: usize> Reduction<D> {
     /// Of a `body`, which is free, keeping the nodes of its contact surface and as many `modes` with these held.
     ///
     /// # Errors
     /// If the nodes of the contact surface do not hold the body, or it is in pieces.
     pub fn new(body: &Body<D>, modes: usize) -> Result<Self, FemError> {
+        compiled!(D, Reduction::build as Build)(body, modes)
+    }
+
+    fn build(body: &Body<D>, modes: usize) -> Result<Self, FemError> {
         let kept = body.surface().nodes();
         if !hold(body, kept) {
             return Err(FemError::NotPositiveDefinite);

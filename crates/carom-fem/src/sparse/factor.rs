@@ -1,17 +1,7 @@
 use carom_mesh::{Matrix, Tie, Vector};
-use faer::dyn_stack::{MemBuffer, MemStack};
-use faer::linalg::cholesky::llt::factor::{LltError, LltParams, LltRegularization};
-use faer::perm::Perm;
-use faer::sparse::linalg::SupernodalThreshold;
-use faer::sparse::linalg::cholesky::supernodal::SupernodalLltRef;
-use faer::sparse::linalg::cholesky::{
-    CholeskySymbolicParams, SymbolicCholesky, SymbolicCholeskyRaw, SymmetricOrdering,
-    factorize_symbolic_cholesky,
-};
-use faer::sparse::{SparseColMatRef, SymbolicSparseColMat};
-use faer::{Par, Side, Spec};
 
 use super::NodeGraph;
+use super::cholesky::Cholesky;
 use super::folding::Folding;
 use super::memory;
 use super::ordering::nested_dissection;
@@ -26,16 +16,11 @@ use crate::FemError;
 /// Where nodes are tied, the inverse of a matrix A stands for T (Tᵀ A T)⁻¹ Tᵀ. T is the map from the motions of the free nodes
 /// to those of all. Forces on an image act on its master, and the two move alike to the last bit.
 pub struct Factor<const D: usize> {
-    lower: SymbolicSparseColMat<usize>,
-    symbolic: SymbolicCholesky<usize>,
+    cholesky: Cholesky,
     /// For every stored value of the lower triangle: its entry in the graph and its place in the block.
     sources: Vec<(u32, u8, u8)>,
     triangular: Box<dyn Triangular>,
     precision: Precision,
-    /// The unknown eliminated k-th.
-    ordering: Vec<usize>,
-    /// When an unknown is eliminated.
-    places: Vec<u32>,
     /// None without ties.
     folding: Option<Folding<D>>,
     factorized: bool,
@@ -44,8 +29,8 @@ pub struct Factor<const D: usize> {
 impl<const D: usize> std::fmt::Debug for Factor<D> {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.debug_struct("Factor")
-            .field("rows", &self.lower.nrows())
-            .field("values", &self.symbolic.len_val())
+            .field("rows", &self.cholesky.ordering.len())
+            .field("values", &self.value_count())
             .finish()
     }
 }
@@ -68,7 +53,6 @@ impl<const D: usize> Factor<D> {
     }
 
     fn over(graph: &NodeGraph, folding: Option<Folding<D>>, last: &[u32]) -> Result<Self, FemError> {
-        let n = graph.node_count() * D;
         let mut column_starts = vec![0];
         let mut rows = Vec::new();
         let mut sources = Vec::new();
@@ -84,34 +68,13 @@ impl<const D: usize> Factor<D> {
                 column_starts.push(rows.len());
             }
         }
-        let lower = SymbolicSparseColMat::new_checked(n, n, column_starts, None, rows);
-        let order = nested_dissection(graph, last).map(|nodes| {
-            let unknowns: Vec<usize> = nodes.iter().flat_map(|n| (0..D).map(move |i| n * D + i)).collect();
-            let mut places = vec![0; n];
-            unknowns.iter().enumerate().for_each(|(k, &u)| places[u] = k);
-            Perm::new_checked(unknowns.into(), places.into(), n)
-        });
-        let symbolic = factorize_symbolic_cholesky(
-            lower.as_ref(),
-            Side::Lower,
-            order.as_ref().map_or(SymmetricOrdering::Amd, |p| SymmetricOrdering::Custom(p.as_ref())),
-            CholeskySymbolicParams {
-                supernodal_flop_ratio_threshold: SupernodalThreshold::FORCE_SUPERNODAL,
-                ..Default::default()
-            },
-        )
-        .map_err(|e| FemError::Symbolic(format!("{e:?}")))?;
-        let ordering = symbolic.perm().map_or_else(|| (0..n).collect(), |p| p.arrays().0.to_vec());
-        let mut places = vec![0; n];
-        ordering.iter().enumerate().for_each(|(k, &unknown)| places[unknown] = k as u32);
+        let order = nested_dissection(graph, last)
+            .map(|nodes| nodes.iter().flat_map(|n| (0..D).map(move |i| n * D + i)).collect());
         Ok(Self {
+            cholesky: Cholesky::new(column_starts, rows, order)?,
+            sources,
             triangular: Precision::default().triangular(),
             precision: Precision::default(),
-            ordering,
-            places,
-            lower,
-            symbolic,
-            sources,
             folding,
             factorized: false,
         })
@@ -132,7 +95,7 @@ impl<const D: usize> Factor<D> {
             Precision::Single => size_of::<f32>(),
             Precision::Double => size_of::<f64>(),
         };
-        memory::check(self.ordering.len(), (self.value_count() * (size_of::<f64>() + kept)) as u64)?;
+        memory::check(self.cholesky.ordering.len(), (self.value_count() * (size_of::<f64>() + kept)) as u64)?;
         self.precision = precision;
         self.triangular = precision.triangular();
         let lower_values = match &self.folding {
@@ -142,24 +105,8 @@ impl<const D: usize> Factor<D> {
                 lower_triangle(&self.sources, |entry| blocks[entry])
             }
         };
-        let mut values = vec![0.0; self.symbolic.len_val()];
-        let request =
-            self.symbolic.factorize_numeric_llt_scratch::<f64>(Par::Seq, Spec::<LltParams, f64>::default());
-        self.symbolic
-            .factorize_numeric_llt(
-                &mut values,
-                SparseColMatRef::new(self.lower.as_ref(), &lower_values),
-                Side::Lower,
-                LltRegularization::default(),
-                Par::Seq,
-                MemStack::new(&mut MemBuffer::new(request)),
-                Spec::default(),
-            )
-            .map_err(|LltError::NonPositivePivot { .. }| FemError::NotPositiveDefinite)?;
-        if let SymbolicCholeskyRaw::Supernodal(symbolic) = self.symbolic.raw() {
-            self.triangular.load(&SupernodalLltRef::new(symbolic, &values), &self.ordering);
-            self.factorized = true;
-        }
+        self.cholesky.factorize(&lower_values, &mut *self.triangular)?;
+        self.factorized = true;
         Ok(())
     }
 
@@ -208,7 +155,7 @@ impl<const D: usize> Factor<D> {
 
     /// Names the nodes at which [`Self::look`] and [`Self::add`] are wanted.
     pub fn set_reach(&mut self, nodes: impl Iterator<Item = usize>) {
-        let Self { triangular, places, folding, .. } = self;
+        let Self { triangular, cholesky: Cholesky { places, .. }, folding, .. } = self;
         let mut wanted = nodes.flat_map(|node| {
             let first = master(folding.as_ref(), node) * D;
             places[first..first + D].iter().map(|&place| place as usize)
@@ -224,7 +171,7 @@ impl<const D: usize> Factor<D> {
     /// Values of the factor.
     #[must_use]
     pub fn value_count(&self) -> usize {
-        self.symbolic.len_val()
+        self.cholesky.value_count()
     }
 
     /// Memory of the factor [bytes].
@@ -265,12 +212,12 @@ impl<const D: usize> Factor<D> {
     }
 
     fn place(&self, node: usize, component: usize) -> usize {
-        self.places[master(self.folding.as_ref(), node) * D + component] as usize
+        self.cholesky.places[master(self.folding.as_ref(), node) * D + component] as usize
     }
 
     /// Adds `forces`, each at a node of the reach, to the right-hand side.
     pub fn add(&mut self, forces: impl Iterator<Item = (usize, Vector<D>)>) {
-        let Self { triangular, places, folding, .. } = self;
+        let Self { triangular, cholesky: Cholesky { places, .. }, folding, .. } = self;
         let mut values = forces.flat_map(|(node, force)| {
             let first = master(folding.as_ref(), node) * D;
             std::array::from_fn::<_, D, _>(|i| (places[first + i] as usize, force[i]))

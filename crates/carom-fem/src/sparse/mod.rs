@@ -2,6 +2,7 @@
 
 mod abreast;
 mod chebyshev;
+mod cholesky;
 mod control;
 mod factor;
 mod folding;

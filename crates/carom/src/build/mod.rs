@@ -44,12 +44,23 @@ use crate::model::Model;
 use crate::model::method::Method;
 use crate::scenario::{BodyKind, Scenario};
 use crate::{ContactCondition, Scheme, State};
+use carom_mesh::compiled;
+
+type BuildModel<const D: usize> =
+    fn(&Scenario, Meshes<D>) -> Result<(Model<D>, Method<D>, State<D>), InputError>;
 
 /// Builds what a scenario in D dimensions describes; `meshes` are those that it takes from files.
 ///
 /// # Errors
 /// If a value is out of range, a mesh has an inverted cell, or bodies overlap or are outside their obstacles at the start.
 pub fn build<const D: usize>(
+    scenario: &Scenario,
+    meshes: Meshes<D>,
+) -> Result<(Model<D>, Method<D>, State<D>), InputError> {
+    compiled!(D, build_model as BuildModel)(scenario, meshes)
+}
+
+fn build_model<const D: usize>(
     scenario: &Scenario,
     meshes: Meshes<D>,
 ) -> Result<(Model<D>, Method<D>, State<D>), InputError> {

@@ -12,6 +12,9 @@ use carom_mesh::Vector;
 
 use crate::Simulation;
 use crate::archive::{Archive, Checkpoint, CheckpointError};
+use carom_mesh::compiled;
+
+type ExchangeAll<const D: usize> = fn(&mut Simulation<D>, &mut Archive<'_>) -> Result<(), CheckpointError>;
 
 impl<const D: usize> Simulation<D> {
     /// All that it takes to go on from here. Changes nothing.
@@ -63,6 +66,10 @@ impl<const D: usize> Simulation<D> {
     }
 
     fn exchange(&mut self, archive: &mut Archive<'_>) -> Result<(), CheckpointError> {
+        compiled!(D, Simulation::exchange_all as ExchangeAll)(self, archive)
+    }
+
+    fn exchange_all(&mut self, archive: &mut Archive<'_>) -> Result<(), CheckpointError> {
         schema(archive)?;
         let mut stage = self.current;
         archive.integers("run/stage", [&mut stage])?;

@@ -38,6 +38,7 @@ use crate::body::foreign::ForeignBody;
 use crate::body::reduced::ReducedBody;
 use crate::body::rigid::RigidBody;
 use crate::body::rigid::guide::{Guide, Resultant};
+use carom_mesh::compiled;
 
 /// Bodies in their places, and what drives them. Everything that does not change during a run.
 #[derive(Debug)]
@@ -49,6 +50,8 @@ pub struct Model<const D: usize> {
     /// Prescribed motion of nodes.
     pub motions: Vec<Motion<D>>,
 }
+
+type MakeSteppingBodies<const D: usize> = fn(&Model<D>) -> Vec<Box<dyn Body<D>>>;
 
 impl<const D: usize> Model<D> {
     /// The model of these bodies, whose nodes are numbered one body after the other, and of the contacts between their surfaces;
@@ -157,6 +160,10 @@ impl<const D: usize> Model<D> {
     /// The bodies as they step, each with scratch of its own.
     #[must_use]
     pub fn stepping_bodies(&self) -> Vec<Box<dyn Body<D>>> {
+        compiled!(D, Model::make_stepping_bodies as MakeSteppingBodies)(self)
+    }
+
+    fn make_stepping_bodies(&self) -> Vec<Box<dyn Body<D>>> {
         let stepping = |(b, &connected): (&Arc<ModelBody<D>>, &bool)| -> Box<dyn Body<D>> {
             if b.is_rigid() {
                 Box::new(RigidBody::new(Arc::clone(b)))

@@ -24,6 +24,7 @@ use crate::model::condition::ContactCondition;
 use crate::model::method::{Method, NewtonRule};
 use crate::scenario::{ContactSpec, ObstacleEntry, Targets};
 use crate::scheme::Scheme;
+use carom_mesh::compiled;
 
 /// What is said of contact beside the surfaces, by the names of the case file.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
@@ -47,6 +48,14 @@ pub struct Outline {
     pub touches_itself: bool,
 }
 
+type Build<const D: usize> = fn(
+    &PlantedSpec,
+    &[Vector<D>],
+    &[Outline],
+    &[[bool; D]],
+    Surfaces<D>,
+) -> Result<PlantedContact<D>, InputError>;
+
 impl<const D: usize> PlantedContact<D> {
     /// Contact between the outlines of bodies and with obstacles. `points` are all nodes of the caller [m], and `held` says which components
     /// of their motion are prescribed; `surfaces` are those of obstacles that come from files.
@@ -54,6 +63,16 @@ impl<const D: usize> PlantedContact<D> {
     /// # Errors
     /// If facets make no surface, two outlines share a node, or a value is out of range.
     pub fn build(
+        spec: &PlantedSpec,
+        points: &[Vector<D>],
+        outlines: &[Outline],
+        held: &[[bool; D]],
+        surfaces: Surfaces<D>,
+    ) -> Result<Self, InputError> {
+        compiled!(D, PlantedContact::of as Build)(spec, points, outlines, held, surfaces)
+    }
+
+    fn of(
         spec: &PlantedSpec,
         points: &[Vector<D>],
         outlines: &[Outline],

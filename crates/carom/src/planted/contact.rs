@@ -25,6 +25,7 @@ use crate::step::impulse::Impulses;
 use crate::step::landing::{Landing, restore};
 use crate::step::newton::control::CONTROL;
 use crate::step::search_margin;
+use carom_mesh::compiled;
 
 /// Surfaces, obstacles and pairs in somebody else's time loop, and what the present step knows of its contacts.
 pub struct PlantedContact<const D: usize> {
@@ -78,6 +79,12 @@ impl<const D: usize> Setting<D> {
         Given { assembly: &self.assembly, method: &self.method, state: &self.state, interval: &self.interval }
     }
 }
+
+type Act<const D: usize> = fn(&mut PlantedContact<D>);
+type EvaluateAt<const D: usize> = fn(&mut PlantedContact<D>, &[Vector<D>]);
+type HasMissed<const D: usize> = fn(&mut PlantedContact<D>, &[Vector<D>]) -> Result<bool, StepError>;
+type End<const D: usize> =
+    fn(&mut PlantedContact<D>, &[Vector<D>], Option<(&[Vector<D>], &mut dyn ForeignMass<D>)>) -> PlantedStep;
 
 impl<const D: usize> PlantedContact<D> {
     pub(super) fn new(assembly: Assembly<D>, method: Method<D>, numbering: Numbering) -> Self {
@@ -149,6 +156,10 @@ impl<const D: usize> PlantedContact<D> {
 
     /// Finds what may touch on the way of the present motion, and which of that takes part.
     fn look(&mut self) {
+        compiled!(D, PlantedContact::find_and_select as Act)(self);
+    }
+
+    fn find_and_select(&mut self) {
         let Self { setting, finder, active, motion, margin, repetition, .. } = self;
         let given = setting.given();
         let nothing = AtRest::default();
@@ -160,6 +171,10 @@ impl<const D: usize> PlantedContact<D> {
     /// Evaluates the contacts that take part where the caller's points are `at` [m] at the end of the step, as it is guessed now. Where its condition
     /// is written in between, the place is that between start and end.
     pub fn evaluate(&mut self, at: &[Vector<D>]) {
+        compiled!(D, PlantedContact::evaluate_at as EvaluateAt)(self, at);
+    }
+
+    fn evaluate_at(&mut self, at: &[Vector<D>]) {
         self.move_to(at);
         let Self { setting, active, motion, before, evaluations, offsets, .. } = self;
         let given = setting.given();
@@ -236,6 +251,10 @@ impl<const D: usize> PlantedContact<D> {
     /// # Errors
     /// If that has happened too often.
     pub fn missed(&mut self, at: &[Vector<D>]) -> Result<bool, StepError> {
+        compiled!(D, PlantedContact::has_missed as HasMissed)(self, at)
+    }
+
+    fn has_missed(&mut self, at: &[Vector<D>]) -> Result<bool, StepError> {
         self.move_to(at);
         let Self { setting, finder, next, motion, active, repetition, .. } = self;
         let given = setting.given();
@@ -269,6 +288,14 @@ impl<const D: usize> PlantedContact<D> {
     }
 
     fn close(
+        &mut self,
+        at: &[Vector<D>],
+        moving: Option<(&[Vector<D>], &mut dyn ForeignMass<D>)>,
+    ) -> PlantedStep {
+        compiled!(D, PlantedContact::end as End)(self, at, moving)
+    }
+
+    fn end(
         &mut self,
         at: &[Vector<D>],
         moving: Option<(&[Vector<D>], &mut dyn ForeignMass<D>)>,

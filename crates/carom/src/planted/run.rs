@@ -19,6 +19,7 @@ use crate::scheme::Scheme;
 use crate::step::report::StepReport;
 use crate::step::step;
 use crate::step::workspace::Workspace;
+use carom_mesh::compiled;
 
 /// A body of somebody else's: its nodes, its boundary and its law.
 pub struct ForeignPart<const D: usize> {
@@ -53,6 +54,9 @@ pub struct ForeignRun<const D: usize> {
     work: Workspace<D>,
 }
 
+type Build<const D: usize> =
+    fn(&ForeignSpec, Vec<ForeignPart<D>>, Surfaces<D>) -> Result<ForeignRun<D>, InputError>;
+
 impl<const D: usize> ForeignRun<D> {
     /// The bodies at the start.
     ///
@@ -63,6 +67,10 @@ impl<const D: usize> ForeignRun<D> {
         parts: Vec<ForeignPart<D>>,
         surfaces: Surfaces<D>,
     ) -> Result<Self, InputError> {
+        compiled!(D, ForeignRun::of as Build)(spec, parts, surfaces)
+    }
+
+    fn of(spec: &ForeignSpec, parts: Vec<ForeignPart<D>>, surfaces: Surfaces<D>) -> Result<Self, InputError> {
         let mut method = method(&spec.planted)?;
         method.scheme = spec.scheme;
         method.newton =

@@ -26,6 +26,7 @@ use crate::run::tracked::tracks;
 use crate::scenario::Scenario;
 use crate::step::workspace::Workspace;
 use crate::{Books, Energies, Ledger, Model, State};
+use carom_mesh::compiled;
 
 /// How [`Simulation::advance`] ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -119,6 +120,9 @@ pub struct Fields<'a, const D: usize> {
     pub cells: Vec<CellState>,
 }
 
+type Build<const D: usize> = fn(&Scenario, Inputs<D>) -> Result<Simulation<D>, InputError>;
+type MakeOneStep<const D: usize> = fn(&mut Simulation<D>) -> Result<(), RunError>;
+
 impl<const D: usize> Simulation<D> {
     /// Builds a run from its scenario, which generates all its meshes.
     ///
@@ -141,6 +145,10 @@ impl<const D: usize> Simulation<D> {
     /// # Errors
     /// If the scenario cannot be run; see [`build`](crate::build).
     pub fn with_inputs(scenario: &Scenario, inputs: Inputs<D>) -> Result<Self, InputError> {
+        compiled!(D, Simulation::build as Build)(scenario, inputs)
+    }
+
+    fn build(scenario: &Scenario, inputs: Inputs<D>) -> Result<Self, InputError> {
         let stages = Stage::all(scenario, inputs)?;
         let state = stages[0].start()?;
         let Stage { model, grid, merge, .. } = &stages[0];
@@ -394,6 +402,10 @@ impl<const D: usize> Simulation<D> {
     }
 
     fn one_step(&mut self) -> Result<(), RunError> {
+        compiled!(D, Simulation::make_one_step as MakeOneStep)(self)
+    }
+
+    fn make_one_step(&mut self) -> Result<(), RunError> {
         let (dt, end) = self.grid.next_step();
         let nominal = Nominal { end, dt, energy: self.totals.max_energy };
         let Self { stages, current, state, spare, work, halvings, .. } = self;

@@ -48,6 +48,7 @@ use crate::model::each_body::{PerBody, PerNode, try_each_body};
 use crate::model::given::Given;
 use crate::model::method::Method;
 use crate::model::state::State;
+use carom_mesh::compiled;
 
 /// Takes `state` one step of length `dt` [s] further and writes the result to `next`.
 ///
@@ -74,17 +75,28 @@ pub(crate) fn step_over<const D: usize>(
     next: &mut State<D>,
     work: &mut Workspace<D>,
 ) -> Result<StepReport, StepError> {
-    let given = Given { assembly, method, state, interval };
+    compiled!(D, make_step as MakeStep)(&Given { assembly, method, state, interval }, next, work)
+}
+
+type MakeStep<const D: usize> =
+    fn(&Given<'_, D>, &mut State<D>, &mut Workspace<D>) -> Result<StepReport, StepError>;
+
+fn make_step<const D: usize>(
+    given: &Given<'_, D>,
+    next: &mut State<D>,
+    work: &mut Workspace<D>,
+) -> Result<StepReport, StepError> {
+    let Given { assembly, interval, .. } = *given;
     let reach = assembly.reach(interval.start).max(assembly.reach(interval.end));
-    let mut margin = predict(&given, work)? + reach;
+    let mut margin = predict(given, work)? + reach;
     let mut iterations = 0;
     for repetition in 0..SEARCH.repetitions {
         let since = Instant::now();
-        while find(&given, margin, repetition, work) {
-            margin = margin.max(predict(&given, work)? + reach);
+        while find(given, margin, repetition, work) {
+            margin = margin.max(predict(given, work)? + reach);
         }
         work.detection_time += since.elapsed();
-        let made = iterate(&given, next, work);
+        let made = iterate(given, next, work);
         if made.is_err() {
             // A factor that was made on the way to nowhere would mislead the next attempt.
             work.bodies.iter_mut().for_each(|body| body.forget());
@@ -92,7 +104,7 @@ pub(crate) fn step_over<const D: usize>(
         if let Err(StepError::NotHeld { .. } | StepError::Runaway { .. }) = made {
             if margin < assembly.size {
                 // It may fall on something that is farther away than the loads foretold.
-                margin = assembly.size.max(predict(&given, work)?);
+                margin = assembly.size.max(predict(given, work)?);
                 continue;
             }
             if let Some(error) = work.newton.caught.take() {
@@ -100,21 +112,21 @@ pub(crate) fn step_over<const D: usize>(
             }
         }
         iterations += made?;
-        place_outlines(&given, next, work);
+        place_outlines(given, next, work);
         let since = Instant::now();
-        let penetration = looked_at(&given, next, repetition, work);
+        let penetration = looked_at(given, next, repetition, work);
         work.detection_time += since.elapsed();
         if let Some(penetration) = penetration? {
-            let report = commit(&given, next, work, iterations)?;
+            let report = commit(given, next, work, iterations)?;
             if interval.map.is_static() {
-                check_jump(&given, &report, work)?;
+                check_jump(given, &report, work)?;
             }
-            if wake(&given, next, work) {
+            if wake(given, next, work) {
                 continue;
             }
             let Workspace { bodies, contacts, resting, .. } = work;
-            resting.note(&given, next, bodies, &contacts.finder.found);
-            let cross_check = cross_check(&given, &work.contacts);
+            resting.note(given, next, bodies, &contacts.finder.found);
+            let cross_check = cross_check(given, &work.contacts);
             let travel = nodal::largest(&work.motion);
             return Ok(StepReport { penetration, travel, cross_check, ..report });
         }

@@ -1,7 +1,5 @@
 //! Targets that are smooth curves: gaps without kinks, and the forces that follow from them.
 
-mod common;
-
 use std::f64::consts::PI;
 
 use carom_contact::{Candidate, Contact, Path, Search, Target};

@@ -1,7 +1,5 @@
 //! Targets in space that are smooth surfaces: gaps without kinks, and the forces that follow from them.
 
-mod common;
-
 use carom_contact::{Contact, Path, Search, Target};
 use carom_mesh::{CellBlock, CellKind, Facet, Matrix, Mesh, Vector, generate};
 
