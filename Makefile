@@ -20,12 +20,14 @@ SOURCES := $(shell find crates python -type f ! -name '*.pyc') \
 demo: $(VENV)/installed
 	$(BIN)/carom run examples/two_cylinders.toml --out results/two_cylinders --set output.report=true --force
 
+# Ranks that wait keep their cores: beside other tests they take twenty times as long.
 test: $(VENV)/installed-dev
 	$(BIN)/python tools/get_browser.py
 	cargo test --release --locked --workspace --tests
 	cargo test --release --locked --workspace --doc
 	$(MAKE) c
-	$(BIN)/pytest -n auto --dist worksteal
+	$(BIN)/pytest tests/unit/ranks
+	$(BIN)/pytest -n auto --dist worksteal --ignore tests/unit/ranks
 
 # With Python 3.11 or later, which Sphinx wants, the site too: its pages and links, not its gallery.
 check: $(VENV)/installed-docs

@@ -124,7 +124,9 @@ def test_a_bond_of_unlike_meshes_passes_the_patch_test(tmp_path, dimension, kind
     assert patch_error(result, dimension, kind) < 1e-10
 
 
-@pytest.mark.parametrize("discretisation", ["mortar", "node-to-segment"])
+@pytest.mark.parametrize(
+    "discretisation", [pytest.param("mortar", marks=pytest.mark.long), "node-to-segment"]
+)
 def test_a_beam_of_glued_pieces_bends_as_one(tmp_path, discretisation):
     """By F L³/3EI + 6 F L/5GA. Symptom guarded against: what holds loose bodies back in load steps
     is stiffer than a slender beam, whose iterations did not end.

@@ -24,7 +24,7 @@ SCENES = [
     pytest.param("massless", 7, marks=LONG),
     ("mortar-midpoint", 0),
     pytest.param("mortar-midpoint", 5, marks=LONG),
-    ("mortar-gap", 5),
+    pytest.param("mortar-gap", 5, marks=LONG),
     ("mortar-endpoint", 2),
 ]
 

@@ -74,7 +74,12 @@ def test_a_long_thin_beam_is_an_endless_one():
 
 
 @pytest.mark.parametrize(
-    "given", [{}, {"clamped": True}, {"modes": 30}], ids=["free", "clamped", "reduced"]
+    "given",
+    [
+        pytest.param({}, id="free"),
+        pytest.param({"clamped": True}, id="clamped"),
+        pytest.param({"modes": 30}, id="reduced", marks=pytest.mark.long),
+    ],
 )
 def test_each_mode_has_what_theory_says(given):
     """Two cells over 1.4 radii of the contact; finer ones are in docs/validation.md."""
