@@ -107,10 +107,12 @@ impl<const D: usize, const N: usize> ShapeTable<D, N> {
             (reference.shape)(&point.xi, &mut values[p]);
             (reference.gradient)(&point.xi, &mut local_gradients[p]);
         }
+        let count = block.cells().len() * points.len();
         let mut table = Self {
             points_per_cell: points.len(),
-            gradients: Vec::new(),
-            weights: Vec::new(),
+            // Of a large body they are most of the memory.
+            gradients: Vec::with_capacity(if integrand == Integrand::Gradients { count } else { 0 }),
+            weights: Vec::with_capacity(count),
             curvatures: Vec::new(),
             values,
         };
@@ -143,7 +145,6 @@ impl<const D: usize, const N: usize> ShapeTable<D, N> {
                     }
                     continue 'cells;
                 }
-                // Of a large body they are more than all the rest.
                 if integrand == Integrand::Gradients {
                     let inverse_transposed = inverse.transpose();
                     table.gradients.push(std::array::from_fn(|a| {

@@ -1,6 +1,7 @@
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 
-use crate::{CellKind, Mesh, Tie, Vector, tensor};
+use crate::cell::MAX_FACET_NODES;
+use crate::{CellBlock, CellKind, Mesh, Tie, Vector, tensor};
 
 /// A facet of the boundary.
 #[derive(Debug, Clone, PartialEq)]
@@ -71,23 +72,26 @@ impl Surface {
     /// The boundary of `mesh`, facets in the order of its cells.
     #[must_use]
     pub fn of<const D: usize>(mesh: &Mesh<D>) -> Self {
-        let mut seen: BTreeMap<Vec<u32>, usize> = BTreeMap::new();
-        let mut all = Vec::new();
-        for block in mesh.blocks() {
-            for cell in block.cells() {
-                for &(kind, local) in block.kind.reference().facets {
-                    let nodes: Vec<u32> = local.iter().map(|&a| cell[a]).collect();
-                    let mut key = nodes.clone();
-                    key.sort_unstable();
-                    *seen.entry(key.clone()).or_default() += 1;
-                    all.push((key, Facet { kind, nodes }));
-                }
-            }
-        }
-        all.retain(|(key, _)| seen[key] == 1);
-        let tied = tied_facets(mesh, &all);
-        let free = all.into_iter().filter(|(key, _)| !tied.contains(key)).map(|(_, facet)| facet);
-        Self::of_facets(free.collect(), mesh.ties())
+        let all = || mesh.blocks().iter().flat_map(facets_of_cells);
+        let count = mesh.blocks().iter().map(|b| b.cells().len() * b.kind.reference().facets.len()).sum();
+        // Most facets of a large mesh are inside: they are compared, and nothing is made of them.
+        let mut keys: Vec<(FacetKey, u32)> = Vec::with_capacity(count);
+        keys.extend(all().zip(0..).map(|((_, nodes), number)| (key(nodes), number)));
+        keys.sort_unstable();
+        let mut numbers: Vec<u32> =
+            keys.chunk_by(|a, b| a.0 == b.0).filter(|same| same.len() == 1).map(|same| same[0].1).collect();
+        drop(keys);
+        numbers.sort_unstable();
+        let mut next = numbers.into_iter().peekable();
+        let outside = all().zip(0..).filter(|&(_, number)| next.next_if_eq(&number).is_some());
+        let boundary: Vec<(FacetKey, Facet)> = outside
+            .map(|((kind, nodes), _)| (key(nodes.clone()), Facet { kind, nodes: nodes.collect() }))
+            .collect();
+        let tied = tied_facets(mesh, &boundary);
+        let free = boundary.into_iter().filter(|(key, _)| !tied.contains(key));
+        let mut facets = Vec::new();
+        facets.extend(free.map(|(_, facet)| facet));
+        Self::of_facets(facets, mesh.ties())
     }
 
     /// The part of this surface whose facets pass `keep`.
@@ -126,20 +130,39 @@ impl Surface {
     }
 }
 
+/// The nodes of a facet, ascending, and numbers that no node has after them.
+type FacetKey = [u32; MAX_FACET_NODES];
+
+fn key(nodes: impl Iterator<Item = u32>) -> FacetKey {
+    let mut key = [u32::MAX; MAX_FACET_NODES];
+    key.iter_mut().zip(nodes).for_each(|(own, node)| *own = node);
+    key.sort_unstable();
+    key
+}
+
+/// Every facet of every cell of a block: its kind and its nodes.
+fn facets_of_cells(
+    block: &CellBlock,
+) -> impl Iterator<Item = (CellKind, impl Iterator<Item = u32> + Clone + '_)> {
+    block.cells().flat_map(|cell| {
+        let of_cell = block.kind.reference().facets.iter();
+        of_cell.map(move |&(kind, local)| (kind, local.iter().map(move |&a| cell[a])))
+    })
+}
+
 /// The facets, by their sorted nodes, that lie on a tied side: those of images only and the ones they coincide with.
-fn tied_facets<const D: usize>(mesh: &Mesh<D>, boundary: &[(Vec<u32>, Facet)]) -> BTreeSet<Vec<u32>> {
+fn tied_facets<const D: usize>(mesh: &Mesh<D>, boundary: &[(FacetKey, Facet)]) -> BTreeSet<FacetKey> {
     let mut tied = BTreeSet::new();
     if mesh.ties().is_empty() {
         return tied;
     }
     let masters = mesh.masters();
-    let there: BTreeSet<&Vec<u32>> = boundary.iter().map(|(key, _)| key).collect();
-    for (key, _) in boundary {
-        if key.iter().all(|&n| masters[n as usize] != n) {
-            let mut opposite: Vec<u32> = key.iter().map(|&n| masters[n as usize]).collect();
-            opposite.sort_unstable();
+    let there: BTreeSet<&FacetKey> = boundary.iter().map(|(own, _)| own).collect();
+    for (own, facet) in boundary {
+        if facet.nodes.iter().all(|&n| masters[n as usize] != n) {
+            let opposite = key(facet.nodes.iter().map(|&n| masters[n as usize]));
             if there.contains(&opposite) {
-                tied.extend([key.clone(), opposite]);
+                tied.extend([*own, opposite]);
             }
         }
     }

@@ -3,6 +3,7 @@
 import os
 import signal
 import subprocess
+import sys
 import time
 from pathlib import Path
 
@@ -147,6 +148,34 @@ def test_what_all_ranks_refuse_is_said_once(tmp_path, run):
     status, _, complained = run(2, *command, "--threads", "4")
     assert status == 2
     assert complained.count("each rank has one thread") == 1
+
+
+FREED = """
+import numpy as np
+from carom.ranks import engine_named
+
+def memory():
+    lines = open("/proc/self/status").read().splitlines()
+    return next(int(line.split()[1]) for line in lines if line.startswith("VmRSS:"))
+
+engine_named("petsc")
+kept = [np.ones(1000) for _ in range(1000)]
+before = memory()
+blocks = [np.ones(10_000_000) for _ in range(2)]
+kept += [np.ones(1000) for _ in range(1000)]
+del blocks
+print(memory() - before)
+"""
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="elsewhere PETSc leaves memory alone")
+def test_a_rank_gives_back_the_memory_that_it_frees(tmp_path, run):
+    """Symptom guarded against: what PETSc does as it is imported kept a quarter more."""
+    script = tmp_path / "freed.py"
+    script.write_text(FREED, encoding="utf-8")
+    status, said, complained = run(1, script)
+    assert status == 0, complained
+    assert int(said) < 20_000
 
 
 ALONE = """

@@ -52,7 +52,8 @@ impl<const D: usize, const S: usize, const N: usize, K: Kinematics<D, S>> Grid<D
         debug_assert!(points_per_cell <= MAX_POINTS);
         let packs = count.div_ceil(LANES);
         let cell = |pack: usize, lane: usize| (pack * LANES + lane).min(count - 1);
-        let (mut gradients, mut weights) = (Vec::new(), Vec::new());
+        let points = packs * points_per_cell;
+        let (mut gradients, mut weights) = (Vec::with_capacity(points), Vec::with_capacity(points));
         for pack in 0..packs {
             for point in 0..points_per_cell {
                 let at: [usize; LANES] =

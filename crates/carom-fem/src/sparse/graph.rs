@@ -44,6 +44,7 @@ impl NodeGraph {
             neighbours.extend_from_slice(&row);
             starts.push(neighbours.len());
         }
+        neighbours.shrink_to_fit();
         Self { starts, neighbours }
     }
 
