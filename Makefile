@@ -26,8 +26,8 @@ test: $(VENV)/installed-dev
 	cargo test --release --locked --workspace --tests
 	cargo test --release --locked --workspace --doc
 	$(MAKE) c
-	$(BIN)/pytest tests/unit/ranks
-	$(BIN)/pytest -n auto --dist worksteal --ignore tests/unit/ranks
+	$(BIN)/pytest tests/unit/ranks/test_ranks.py
+	$(BIN)/pytest -n auto --dist worksteal --ignore tests/unit/ranks/test_ranks.py
 
 # With Python 3.11 or later, which Sphinx wants, the site too: its pages and links, not its gallery.
 check: $(VENV)/installed-docs
