@@ -1,5 +1,6 @@
 use std::sync::Arc;
 
+use carom_mesh::compiled;
 use carom_mesh::{Facet, Matrix, Mesh, Surface, Vector};
 
 use crate::composition::{OfMaterial, for_each_piece, for_each_piece_of, laws, materials_of};
@@ -12,7 +13,6 @@ use crate::ranks::{Ranks, Summed};
 use crate::shape_table::{Depth, facet_area};
 use crate::sparse::{NodalMatrix, NodeGraph};
 use crate::{BodySpec, FemError, Growth, Hypothesis, MassKind, PointMass, RayleighDamping};
-use carom_mesh::compiled;
 
 /// A node whose radius is below this, relative to the size of the body, is on the axis.
 const ON_THE_AXIS: f64 = 1e-9;

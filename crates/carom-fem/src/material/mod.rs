@@ -35,13 +35,13 @@ mod yeoh;
 use std::fmt::Debug;
 use std::sync::Arc;
 
+use carom_mesh::compiled;
 use nalgebra::Matrix3;
 use serde::{Deserialize, Serialize};
 
 use crate::{FemError, Hypothesis};
 pub use batch::{BATCH, Batch, LANES, MAX_POINTS};
 pub use blatz_ko::BlatzKo;
-use carom_mesh::compiled;
 pub use elastic_constants::ElasticConstants;
 pub use flowing::Flowing;
 pub use invariants::{ByInvariants, InvariantEnergy, Jet};

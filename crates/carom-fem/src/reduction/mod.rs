@@ -8,6 +8,7 @@ mod content;
 mod lowest;
 mod reader;
 
+use carom_mesh::compiled;
 use carom_mesh::{Matrix, Vector};
 use nalgebra::{Cholesky, DMatrix};
 
@@ -17,7 +18,6 @@ use self::lowest::lowest_modes;
 use self::reader::Reader;
 use crate::sparse::{Factor, NodalMatrix, Precision};
 use crate::{Body, FemError, Held};
-use carom_mesh::compiled;
 
 /// A mode has no stiffness where it has less than this part of that of the stiffest one: the mesh is in pieces, or a mechanism.
 const LOOSE: f64 = 1e-13;

@@ -32,6 +32,7 @@ pub(crate) mod values;
 mod velocity;
 
 use carom_mesh::Vector;
+use carom_mesh::compiled;
 
 use self::friction_law::friction_laws;
 pub use self::inputs::{Engine, Inputs, Laws, Meshes};
@@ -44,7 +45,6 @@ use crate::model::Model;
 use crate::model::method::Method;
 use crate::scenario::{BodyKind, Scenario};
 use crate::{ContactCondition, Scheme, State};
-use carom_mesh::compiled;
 
 type BuildModel<const D: usize> =
     fn(&Scenario, Meshes<D>) -> Result<(Model<D>, Method<D>, State<D>), InputError>;

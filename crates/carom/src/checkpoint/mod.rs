@@ -9,10 +9,10 @@ mod progress;
 mod state;
 
 use carom_mesh::Vector;
+use carom_mesh::compiled;
 
 use crate::Simulation;
 use crate::archive::{Archive, Checkpoint, CheckpointError};
-use carom_mesh::compiled;
 
 type ExchangeAll<const D: usize> = fn(&mut Simulation<D>, &mut Archive<'_>) -> Result<(), CheckpointError>;
 

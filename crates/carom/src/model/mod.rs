@@ -21,6 +21,7 @@ pub(crate) mod state;
 use std::sync::Arc;
 
 use carom_contact::ContactModel;
+use carom_mesh::compiled;
 use carom_mesh::{Surface, Vector};
 
 use self::assembly::{Assembly, Member};
@@ -38,7 +39,6 @@ use crate::body::foreign::ForeignBody;
 use crate::body::reduced::ReducedBody;
 use crate::body::rigid::RigidBody;
 use crate::body::rigid::guide::{Guide, Resultant};
-use carom_mesh::compiled;
 
 /// Bodies in their places, and what drives them. Everything that does not change during a run.
 #[derive(Debug)]

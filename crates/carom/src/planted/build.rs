@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use carom_contact::{ContactModel, ContactSurface, Side};
+use carom_mesh::compiled;
 use carom_mesh::{Facet, Surface, Vector};
 use serde::Deserialize;
 
@@ -24,7 +25,6 @@ use crate::model::condition::ContactCondition;
 use crate::model::method::{Method, NewtonRule};
 use crate::scenario::{ContactSpec, ObstacleEntry, Targets};
 use crate::scheme::Scheme;
-use carom_mesh::compiled;
 
 /// What is said of contact beside the surfaces, by the names of the case file.
 #[derive(Debug, Clone, PartialEq, Deserialize)]

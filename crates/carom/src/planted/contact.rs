@@ -2,6 +2,7 @@
 
 use carom_contact::{Candidate, Contact};
 use carom_friction::{ContactProblem, Matrix, SolveReport};
+use carom_mesh::compiled;
 use carom_mesh::{Vector, nodal};
 
 use super::mass::{ForeignMass, OnSurfaces};
@@ -25,7 +26,6 @@ use crate::step::impulse::Impulses;
 use crate::step::landing::{Landing, restore};
 use crate::step::newton::control::CONTROL;
 use crate::step::search_margin;
-use carom_mesh::compiled;
 
 /// Surfaces, obstacles and pairs in somebody else's time loop, and what the present step knows of its contacts.
 pub struct PlantedContact<const D: usize> {
@@ -80,7 +80,7 @@ impl<const D: usize> Setting<D> {
     }
 }
 
-type Act<const D: usize> = fn(&mut PlantedContact<D>);
+type FindAndSelect<const D: usize> = fn(&mut PlantedContact<D>);
 type EvaluateAt<const D: usize> = fn(&mut PlantedContact<D>, &[Vector<D>]);
 type HasMissed<const D: usize> = fn(&mut PlantedContact<D>, &[Vector<D>]) -> Result<bool, StepError>;
 type End<const D: usize> =
@@ -156,7 +156,7 @@ impl<const D: usize> PlantedContact<D> {
 
     /// Finds what may touch on the way of the present motion, and which of that takes part.
     fn look(&mut self) {
-        compiled!(D, PlantedContact::find_and_select as Act)(self);
+        compiled!(D, PlantedContact::find_and_select as FindAndSelect)(self);
     }
 
     fn find_and_select(&mut self) {

@@ -1,6 +1,7 @@
 //! Bodies of others in steps of carom.
 
 use carom_contact::ContactModel;
+use carom_mesh::compiled;
 use carom_mesh::{Surface, Vector};
 use serde::Deserialize;
 
@@ -19,7 +20,6 @@ use crate::scheme::Scheme;
 use crate::step::report::StepReport;
 use crate::step::step;
 use crate::step::workspace::Workspace;
-use carom_mesh::compiled;
 
 /// A body of somebody else's: its nodes, its boundary and its law.
 pub struct ForeignPart<const D: usize> {

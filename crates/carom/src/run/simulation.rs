@@ -2,6 +2,7 @@ use std::time::Duration;
 
 use carom_fem::CellState;
 use carom_mesh::Vector;
+use carom_mesh::compiled;
 use serde::Serialize;
 
 use super::error::RunError;
@@ -26,7 +27,6 @@ use crate::run::tracked::tracks;
 use crate::scenario::Scenario;
 use crate::step::workspace::Workspace;
 use crate::{Books, Energies, Ledger, Model, State};
-use carom_mesh::compiled;
 
 /// How [`Simulation::advance`] ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -27,6 +27,7 @@ pub(crate) mod workspace;
 
 use std::time::Instant;
 
+use carom_mesh::compiled;
 use carom_mesh::{Vector, nodal};
 
 use self::commit::commit;
@@ -48,7 +49,6 @@ use crate::model::each_body::{PerBody, PerNode, try_each_body};
 use crate::model::given::Given;
 use crate::model::method::Method;
 use crate::model::state::State;
-use carom_mesh::compiled;
 
 /// Takes `state` one step of length `dt` [s] further and writes the result to `next`.
 ///
