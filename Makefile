@@ -25,7 +25,7 @@ test: $(VENV)/installed-dev
 	$(BIN)/python tools/get_browser.py
 	cargo test --release --locked --workspace --tests
 	cargo test --release --locked --workspace --doc
-	$(MAKE) c
+	CAROM_C_BUILT_WITH=--workspace $(MAKE) c
 	$(BIN)/pytest tests/unit/ranks/test_ranks.py
 	$(BIN)/pytest -n auto --dist worksteal --ignore tests/unit/ranks/test_ranks.py
 

@@ -1,6 +1,8 @@
 #!/bin/sh
 # Builds the library for C, C++ and Fortran, and lays it out below a folder. usage: install.sh PREFIX
 #
+# Cargo gives crates the features that all packages ask for which it builds. With CAROM_C_BUILT_WITH=--workspace the
+# library is built of the crates that the tests have: not one is compiled again.
 # What is laid out may be moved: carom.pc and the CMake files know each other's places relative to their own.
 set -eu
 root=$(cd "$(dirname "$0")/../../.." && pwd)
@@ -18,15 +20,14 @@ esac
 case $(uname -s) in
 Darwin)
     built=libcarom_c.dylib real=libcarom.$version.dylib named=libcarom.$interface.dylib plain=libcarom.dylib
-    name=-Wl,-install_name,@rpath/$named
     ;;
 *)
     built=libcarom_c.so real=libcarom.so.$version named=libcarom.so.$interface plain=libcarom.so
-    name=-Wl,-soname,$named
     ;;
 esac
 
-cargo rustc --release --locked --package carom-c --lib --crate-type staticlib,cdylib -- -C "link-arg=$name"
+# shellcheck disable=SC2086
+cargo build --release --locked --lib ${CAROM_C_BUILT_WITH:---package carom-c}
 target=${CARGO_TARGET_DIR:-target}/release
 
 mkdir -p "$prefix/include" "$prefix/lib/pkgconfig" "$prefix/lib/cmake/carom" "$prefix/share/doc/carom"

@@ -23,9 +23,12 @@ def features(*arguments):
 
 
 @pytest.mark.skipif(shutil.which("cargo") is None, reason="without cargo there are no crates")
-def test_the_wheel_is_built_of_crates_with_the_features_that_they_have_in_tests():
+@pytest.mark.parametrize(
+    "built", [["--package", "carom-python"], ["--workspace"]], ids=["wheel", "library for C"]
+)
+def test_the_wheel_and_the_library_for_c_are_built_of_the_crates_that_tests_have(built):
     """Symptom guarded against: faer, nalgebra and all of carom were compiled once for each."""
-    wheel = features("--package", "carom-python", "--edges", "normal,build")
+    crates = features(*built, "--edges", "normal,build")
     tests = features("--workspace", "--edges", "all")
-    assert len(wheel) > 50
-    assert wheel - tests == set()
+    assert len(crates) > 50
+    assert crates - tests == set()
