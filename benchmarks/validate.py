@@ -16,6 +16,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "tests" / "validation"))
 
+from installed import refuse_another_carom
 from sections import (
     bars,
     beams,
@@ -98,6 +99,7 @@ def main() -> None:
     chosen = parser.parse_args().parts or list(PARTS)
     if unknown := set(chosen) - set(PARTS):
         parser.error(f"no part: {', '.join(unknown)}")
+    refuse_another_carom()
     start = time.perf_counter()
     IMAGES.mkdir(parents=True, exist_ok=True)
     for name in chosen:

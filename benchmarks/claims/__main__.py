@@ -24,6 +24,8 @@ from typing import Any
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "tests" / "validation"))
 
+from installed import refuse_another_carom
+
 import carom
 from claims.judge import Verdict, judged
 from claims.manifest import MANIFEST, MEASURED, Manifest
@@ -46,6 +48,7 @@ def main() -> int:
     if options.bare:
         print(*manifest.bare(options.bare), sep="\n")
         return 0
+    refuse_another_carom()
     verdicts, troubles = [], []
     for name, run in manifest.runs.items():
         claims = [

@@ -1,6 +1,7 @@
 """The scripts of benchmarks/ run where carom does, and rewrite only what they are asked for."""
 
 import json
+import os
 import subprocess
 import sys
 from pathlib import Path
@@ -63,3 +64,37 @@ def test_a_part_of_the_validation_page_is_renewed_alone(validate):
     renewed = validate.renewed(page, "## One\n\n4\n")
     assert renewed == "# Validation\n\n## One\n\n4\n\n## Two\n\n3\n"
     assert validate.renewed(page, "## Three\n\n5\n") == f"{page}\n## Three\n\n5\n"
+
+
+@pytest.fixture
+def sources(tmp_path):
+    """A tree of sources, and the package that was made of them after."""
+    root, package = tmp_path / "root", tmp_path / "site" / "carom"
+    files = {
+        root / "crates" / "carom" / "src" / "step" / "mod.rs": 100,
+        root / "python" / "carom" / "case" / "body.py": 100,
+        package / "case" / "body.py": 200,
+        package / "_carom.abi3.so": 200,
+    }
+    for path, written in files.items():
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text("as it is")
+        os.utime(path, (written, written))
+    return root, package
+
+
+def test_nothing_is_measured_with_a_carom_of_other_sources(monkeypatch, sources):
+    """Symptom guarded against: half an hour of validation measured a version of the day before."""
+    monkeypatch.syspath_prepend(BENCHMARKS)
+    from installed import changed_since_built
+
+    root, package = sources
+    assert changed_since_built(root, package) is None
+    native = root / "crates" / "carom" / "src" / "step" / "mod.rs"
+    os.utime(native, (300, 300))
+    assert changed_since_built(root, package) == native
+    described = root / "python" / "carom" / "case" / "body.py"
+    described.write_text("as it will be")
+    assert changed_since_built(root, package) == described
+    (package / "case" / "body.py").unlink()
+    assert changed_since_built(root, package) == described
