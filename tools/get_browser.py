@@ -1,7 +1,8 @@
-"""Get a Chromium for the tests of the report, if this machine has none; never fail.
+"""Get the browsers for the tests of the report that this machine has not; never fail.
 
-Playwright's own build comes first; where its server cannot be reached, root takes the one of the
-distribution. Without either, `make test` skips what needs a browser, and says so.
+Of Chromium Playwright's own build comes first; where its server cannot be reached, root takes the
+one of the distribution, and its Firefox with a screen that nobody sees. What is not there `make
+test` skips, and says so.
 """
 
 from __future__ import annotations
@@ -10,6 +11,7 @@ import os
 import shutil
 import subprocess
 import sys
+from collections.abc import Callable
 
 NAMES = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable", "chrome")
 """Of browsers on the path that will do."""
@@ -28,6 +30,14 @@ def found() -> str | None:
     return next(filter(None, [*shells, *map(shutil.which, NAMES)]), None)
 
 
+PACKAGES: dict[str, Callable[[], object]] = {
+    "chromium": found,
+    "firefox-esr": lambda: shutil.which("firefox-esr") or shutil.which("firefox"),
+    "xvfb": lambda: shutil.which("Xvfb"),
+}
+"""What is wanted, as Debian calls it, and whether it is there."""
+
+
 def _ran(*command: str) -> bool:
     try:
         return subprocess.run(command, check=False, timeout=600).returncode == 0
@@ -37,18 +47,20 @@ def _ran(*command: str) -> bool:
 
 def main() -> int:
     """Run the script."""
-    if found():
-        return 0
     root = hasattr(os, "geteuid") and os.geteuid() == 0
+    missing = [name for name, is_there in PACKAGES.items() if not is_there()]
     playwright = (sys.executable, "-m", "playwright")
-    if _ran(*playwright, "install", "chromium"):
+    if "chromium" in missing and _ran(*playwright, "install", "chromium"):
+        missing.remove("chromium")
         if root:
             _ran(*playwright, "install-deps", "chromium")
-    elif root and shutil.which("apt-get"):
+    if missing and root and shutil.which("apt-get"):
         _ran("apt-get", "update", "-qq")
-        _ran("apt-get", "install", "-y", "-qq", "--no-install-recommends", "chromium")
-    if not found():
-        print("no browser could be installed: the tests that need one are skipped")
+        for name in missing:
+            _ran("apt-get", "install", "-y", "-qq", "--no-install-recommends", name)
+    for name, is_there in PACKAGES.items():
+        if not is_there():
+            print(f"no {name} could be installed: the tests that need it are skipped")
     return 0
 
 
