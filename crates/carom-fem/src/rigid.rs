@@ -96,15 +96,10 @@ impl<const D: usize> Body<D> {
     /// revolution has none, as it cancels.
     #[must_use]
     pub fn angular_momentum(&self, u: &[Vector<D>], mv: &[Vector<D>]) -> [f64; 3] {
-        let mut sum = [0.0; 3];
         if self.is_axisymmetric() {
-            return sum;
+            return [0.0; 3];
         }
-        for ((u, mv), x) in u.iter().zip(mv).zip(self.mesh().nodes()) {
-            let moment = tensor::cross(&(x + u), mv);
-            (0..3).for_each(|i| sum[i] += moment[i]);
-        }
-        sum
+        moments(self.mesh().nodes().iter().zip(u).map(|(x, u)| x + u), mv)
     }
 }
 
@@ -131,32 +126,42 @@ pub struct Momenta<const D: usize> {
 }
 
 impl<const D: usize> Body<D> {
-    /// Momenta and kinetic energy at displacements `u` [m] and velocities `v` [m/s].
+    /// Momenta and kinetic energy at displacements `u` [m] and velocities `v` [m/s], at which the kinetic energy is `kinetic` [J].
     ///
     /// For the parts of the energy the velocities are taken apart into those of a rigid body of the same momentum and angular momentum, and the rest, which is at right
     /// angles to them in the mass matrix: the parts add up to the whole, and none is negative but for round-off. A body of revolution, or one
     /// that repeats itself, does not turn.
     #[must_use]
-    pub fn momenta(&self, u: &[Vector<D>], v: &[Vector<D>]) -> Momenta<D> {
-        let mut mv = vec![Vector::zeros(); v.len()];
-        self.multiply_mass(v, &mut mv);
-        let whole = 0.5 * nodal::dot(v, &mv);
-        let momentum = self.resultant(nodal::total(&mv));
+    pub fn momenta(&self, u: &[Vector<D>], v: &[Vector<D>], kinetic: f64) -> Momenta<D> {
+        let momentum = self.resultant(nodal::weighted_total(self.nodal_mass(), v));
         let translation = 0.5 * momentum.norm_squared() / self.total_mass();
-        let angular_momentum = self.angular_momentum(u, &mv);
-        let rotation = if self.is_axisymmetric() || !self.mesh().ties().is_empty() {
-            0.0
-        } else {
-            let (mut from_centre, mut arms) = (mv, vec![Vector::zeros(); v.len()]);
+        let (mut rotation, mut angular_momentum) = (0.0, [0.0; 3]);
+        if !self.is_axisymmetric() {
+            let (mut from_centre, mut arms) = (vec![Vector::zeros(); v.len()], vec![Vector::zeros(); v.len()]);
             let rigid = self.rigid_mass(u, &mut from_centre, &mut arms);
             let orbit = tensor::cross(&rigid.centre, &momentum);
-            let spin: [f64; 3] = std::array::from_fn(|i| angular_momentum[i] - orbit[i]);
-            let (_, turn) = rigid.acceleration(&Vector::zeros(), &spin);
-            0.5 * (0..3).map(|i| turn[i] * spin[i]).sum::<f64>()
-        };
-        let kinetic = KineticParts { translation, rotation, vibration: whole - translation - rotation };
+            // The mass matrix is symmetric: Σ y × M v is Σ M y × v.
+            let spin = moments(arms.iter().copied(), v);
+            angular_momentum = std::array::from_fn(|i| orbit[i] + spin[i]);
+            if self.mesh().ties().is_empty() {
+                let (_, turn) = rigid.acceleration(&Vector::zeros(), &spin);
+                rotation = 0.5 * (0..3).map(|i| turn[i] * spin[i]).sum::<f64>();
+            }
+        }
+        let vibration = kinetic - translation - rotation;
+        let kinetic = KineticParts { translation, rotation, vibration };
         Momenta { momentum, angular_momentum, kinetic }
     }
+}
+
+/// Σ a × b, with three components.
+fn moments<const D: usize>(a: impl Iterator<Item = Vector<D>>, b: &[Vector<D>]) -> [f64; 3] {
+    let mut sum = [0.0; 3];
+    for (a, b) in a.zip(b) {
+        let moment = tensor::cross(&a, b);
+        (0..3).for_each(|i| sum[i] += moment[i]);
+    }
+    sum
 }
 
 /// Mass, centre and inertia of a body in some configuration.

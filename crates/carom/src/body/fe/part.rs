@@ -122,7 +122,7 @@ impl<const D: usize> ModelBody<D> {
         if let Some(law) = &self.foreign {
             return law.momenta(&self.places(u), v, kinetic);
         }
-        let Some(rigid) = &self.rigid else { return self.body.momenta(u, v) };
+        let Some(rigid) = &self.rigid else { return self.body.momenta(u, v, kinetic) };
         let (momentum, angular_momentum) = rigid.momenta(u, v);
         let translation = 0.5 * momentum.norm_squared() / rigid.mass();
         let kinetic = KineticParts { translation, rotation: kinetic - translation, vibration: 0.0 };
