@@ -8,7 +8,9 @@ fn main() {
     // Before 1.0 a new minor version may be another interface. install.sh names the files so, too.
     let interface = if major == "0" { format!("0.{minor}") } else { major };
     match var("CARGO_CFG_TARGET_OS").as_deref() {
-        Ok("macos") => println!("cargo:rustc-cdylib-link-arg=-Wl,-install_name,@rpath/libcarom.{interface}.dylib"),
+        Ok("macos") => {
+            println!("cargo:rustc-cdylib-link-arg=-Wl,-install_name,@rpath/libcarom.{interface}.dylib")
+        }
         Ok("windows") => {}
         _ => println!("cargo:rustc-cdylib-link-arg=-Wl,-soname,libcarom.so.{interface}"),
     }

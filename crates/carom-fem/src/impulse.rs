@@ -1,6 +1,9 @@
 //! What an impulse makes of the velocities of a body.
 
-use carom_mesh::Vector;
+use std::ops::{Add, Range};
+
+use carom_mesh::parallel::{each_chunk, reduce};
+use carom_mesh::{Vector, nodal};
 
 use crate::Body;
 
@@ -20,13 +23,17 @@ const RINGS: usize = 24;
 /// A blow on a few nodes costs what the cells around these cost: what is so far away that it does not feel it is not looked at.
 #[derive(Debug, Default)]
 pub struct MassSolver<const D: usize> {
+    /// The nodes that are looked at. All vectors below have an entry for each of these, but the last.
+    reached: Reached,
     inverse_diagonal: Vec<f64>,
+    change: Vec<Vector<D>>,
     residual: Vec<Vector<D>>,
     direction: Vec<Vector<D>>,
     image: Vec<Vector<D>>,
-    reached: Reached,
-    /// What is summed over the ranks that share a body.
-    parts: Vec<Vector<D>>,
+    /// What is multiplied by the mass, with an entry per node of the body.
+    spread: Vec<Vector<D>>,
+    /// 1/M of every node of the body [1/kg].
+    all_inverse: Vec<f64>,
 }
 
 impl<const D: usize> MassSolver<D> {
@@ -34,35 +41,51 @@ impl<const D: usize> MassSolver<D> {
     /// that are tied. Slices have an entry per node of the `body`, none of which is without mass.
     pub fn solve(&mut self, body: &Body<D>, impulse: &[Vector<D>], change: &mut [Vector<D>]) {
         self.prepare(body);
-        self.residual.copy_from_slice(impulse);
-        restrict(body, &mut self.residual);
-        change.fill(Vector::zeros());
         // Tied nodes move at once however far apart they are.
         let ties = body.mesh().ties();
-        let Self { reached, residual, .. } = self;
-        reached.start(residual.len(), |n| !ties.is_empty() || residual[n].amax() > 0.0);
+        change.copy_from_slice(impulse);
+        to_masters(body, change);
+        body.held().clear(change);
+        self.reached.start(change.len(), |n| !ties.is_empty() || change[n].amax() > 0.0);
+        [&mut self.change, &mut self.residual].into_iter().for_each(Vec::clear);
+        self.residual.extend(self.reached.nodes.iter().map(|&n| change[n as usize]));
+        self.inverse_diagonal.clear();
+        self.spread.fill(Vector::zeros());
+        self.grow(body, 0);
         let enough = TOLERANCE * TOLERANCE * self.left(0);
-        self.reached.grow(body, RINGS);
+        self.grow(body, RINGS);
         loop {
-            self.iterate(body, change, enough);
+            self.iterate(body, enough);
             let known = self.reached.nodes.len();
-            self.reached.grow(body, 1);
-            self.multiply(body, change, known);
-            for &n in &self.reached.nodes[known..] {
-                self.residual[n as usize] -= self.image[n as usize];
-            }
+            self.grow(body, 1);
+            self.reached.spread(&self.change, &mut self.spread);
+            self.multiply(body, known);
+            let rows = self.residual[known..].iter_mut().zip(&self.image[known..]);
+            rows.for_each(|(residual, image)| *residual -= image);
             // What the next ring feels bounds what those beyond it do.
             if self.left(known) <= enough {
                 break;
             }
-            self.reached.grow(body, RINGS);
+            self.grow(body, RINGS);
         }
+        change.fill(Vector::zeros());
+        self.reached.spread(&self.change, change);
         ties.iter().for_each(|t| change[t.image as usize] = change[t.master as usize]);
     }
 
+    /// Takes in so many rings of nodes, at which nothing is known yet.
+    fn grow(&mut self, body: &Body<D>, rings: usize) {
+        self.reached.grow(body, rings);
+        let Self { reached, inverse_diagonal, change, residual, direction, image, all_inverse, .. } = self;
+        let known = inverse_diagonal.len();
+        inverse_diagonal.extend(reached.nodes[known..].iter().map(|&n| all_inverse[n as usize]));
+        for vector in [change, residual, direction, image] {
+            vector.resize(reached.nodes.len(), Vector::zeros());
+        }
+    }
+
     /// Conjugate gradients among the nodes that are reached.
-    fn iterate(&mut self, body: &Body<D>, change: &mut [Vector<D>], enough: f64) {
-        let ties = body.mesh().ties();
+    fn iterate(&mut self, body: &Body<D>, enough: f64) {
         let mut size = self.left(0);
         let mut kept = 0.0;
         self.direction.fill(Vector::zeros());
@@ -70,60 +93,71 @@ impl<const D: usize> MassSolver<D> {
             if size <= enough {
                 break;
             }
-            let Self { inverse_diagonal, residual, direction, reached, .. } = self;
-            for n in reached.nodes() {
-                direction[n] = residual[n] * inverse_diagonal[n] + direction[n] * kept;
-            }
-            ties.iter().for_each(|t| direction[t.image as usize] = direction[t.master as usize]);
-            let direction = std::mem::take(direction);
-            self.multiply(body, &direction, 0);
-            self.direction = direction;
-            let Self { residual, direction, image, reached, .. } = self;
-            let length = size / reached.nodes().map(|n| direction[n].dot(&image[n])).sum::<f64>();
-            for n in reached.nodes() {
-                change[n] += direction[n] * length;
-                residual[n] -= image[n] * length;
-            }
+            let Self { reached, inverse_diagonal, residual, direction, spread, .. } = self;
+            each_chunk(direction, |first, direction| {
+                let known = inverse_diagonal[first..].iter().zip(&residual[first..]);
+                direction.iter_mut().zip(known).for_each(|(d, (w, r))| *d = r * *w + *d * kept);
+            });
+            // All nodes are reached where some are tied, each in the place of its number.
+            body.mesh()
+                .ties()
+                .iter()
+                .for_each(|t| direction[t.image as usize] = direction[t.master as usize]);
+            reached.spread(direction, spread);
+            self.multiply(body, 0);
+            let Self { change, residual, direction, image, .. } = self;
+            let length = size / nodal::dot(direction, image);
+            nodal::each_of_two(change, residual, [direction, image], |v, r, [d, m]| {
+                *v += d * length;
+                *r -= m * length;
+            });
             let before = std::mem::replace(&mut size, self.left(0));
             kept = size / before;
         }
     }
 
-    /// Writes the rows of M v of the nodes that are reached, from this number of them on, to the image.
-    fn multiply(&mut self, body: &Body<D>, v: &[Vector<D>], from: usize) {
-        let Self { image, reached, parts, .. } = self;
-        let nodes = || reached.nodes[from..].iter().map(|&n| n as usize);
-        for n in nodes() {
-            image[n] = body.mass().row_times(n, v);
+    /// Writes the rows of the nodes that are reached, from this number of them on, of M times what was spread to the image.
+    fn multiply(&mut self, body: &Body<D>, from: usize) {
+        let Self { reached, image, spread, .. } = self;
+        let nodes = &reached.nodes[from..];
+        each_chunk(&mut image[from..], |first, image| {
+            let rows = image.iter_mut().zip(&nodes[first..]);
+            rows.for_each(|(row, &n)| *row = body.mass().row_times(n as usize, spread));
+        });
+        body.ranks().iter().for_each(|ranks| ranks.sum(bytemuck::cast_slice_mut(&mut image[from..])));
+        to_masters(body, image);
+        for dof in body.held().dofs() {
+            if let Some(held) = reached.place_of(dof.node) {
+                image[held][dof.component as usize] = 0.0;
+            }
         }
-        if let Some(ranks) = body.ranks() {
-            parts.clear();
-            parts.extend(nodes().map(|n| image[n]));
-            ranks.sum(bytemuck::cast_slice_mut(parts));
-            nodes().zip(&*parts).for_each(|(n, sum)| image[n] = *sum);
-        }
-        restrict(body, image);
     }
 
     /// What is left to do at the nodes that are reached, from this number of them on: their residual, by their masses.
     fn left(&self, from: usize) -> f64 {
-        let nodes = self.reached.nodes[from..].iter().map(|&n| n as usize);
-        nodes.map(|n| self.residual[n].norm_squared() * self.inverse_diagonal[n]).sum()
+        let Self { residual, inverse_diagonal, .. } = self;
+        let part = |nodes: Range<usize>| {
+            let own = residual[nodes.clone()].iter().zip(&inverse_diagonal[nodes]);
+            own.map(|(r, w)| r.norm_squared() * w).sum::<f64>()
+        };
+        reduce(from..residual.len(), &part, &Add::add)
     }
 
     fn prepare(&mut self, body: &Body<D>) {
-        if !self.inverse_diagonal.is_empty() {
+        if !self.all_inverse.is_empty() {
             return;
         }
         let (mass, nodes) = (body.mass(), body.node_count());
         let own = |n: usize| mass.values[mass.graph().entry(n as u32, n as u32)];
         let mut diagonal: Vec<f64> = (0..nodes).map(own).collect();
         body.ranks().iter().for_each(|ranks| ranks.sum(&mut diagonal));
-        self.inverse_diagonal = diagonal.into_iter().map(f64::recip).collect();
-        let zeros = vec![Vector::zeros(); nodes];
-        (self.residual, self.direction, self.image) = (zeros.clone(), zeros.clone(), zeros);
+        self.all_inverse = diagonal.into_iter().map(f64::recip).collect();
+        self.spread = vec![Vector::zeros(); nodes];
     }
 }
+
+/// The number of a node that is not reached.
+const BEYOND: u32 = u32::MAX;
 
 /// The nodes that an impulse may have reached, ring by ring.
 #[derive(Debug, Default)]
@@ -131,24 +165,31 @@ struct Reached {
     nodes: Vec<u32>,
     /// Where the last ring begins.
     last: usize,
-    is_within: Vec<bool>,
+    /// The number among these of every node of the body.
+    places: Vec<u32>,
 }
 
 impl Reached {
     /// Those at which it starts, of so many.
     fn start(&mut self, count: usize, is_hit: impl Fn(usize) -> bool) {
-        self.nodes.iter().for_each(|&n| self.is_within[n as usize] = false);
+        self.nodes.iter().for_each(|&n| self.places[n as usize] = BEYOND);
         self.nodes.clear();
-        self.is_within.resize(count, false);
+        self.places.resize(count, BEYOND);
         self.last = 0;
         for n in (0..count).filter(|&n| is_hit(n)) {
+            self.places[n] = self.nodes.len() as u32;
             self.nodes.push(n as u32);
-            self.is_within[n] = true;
         }
     }
 
-    fn nodes(&self) -> impl Iterator<Item = usize> + Clone {
-        self.nodes.iter().map(|&n| n as usize)
+    /// The number of a node of the body among those that are reached.
+    fn place_of(&self, node: u32) -> Option<usize> {
+        Some(self.places[node as usize]).filter(|&place| place != BEYOND).map(|place| place as usize)
+    }
+
+    /// Writes the vectors of the nodes that are reached to an entry per node of the body.
+    fn spread<const D: usize>(&self, vectors: &[Vector<D>], out: &mut [Vector<D>]) {
+        self.nodes.iter().zip(vectors).for_each(|(&n, v)| out[n as usize] = *v);
     }
 
     /// Takes in so many rings of those that have a mass in common with the last ones.
@@ -158,22 +199,25 @@ impl Reached {
             let end = self.nodes.len();
             for k in std::mem::replace(&mut self.last, end)..end {
                 for (_, neighbour) in body.graph().row(self.nodes[k] as usize) {
-                    if !std::mem::replace(&mut self.is_within[neighbour], true) {
+                    if self.places[neighbour] == BEYOND {
+                        self.places[neighbour] = self.nodes.len() as u32;
                         self.nodes.push(neighbour as u32);
                     }
                 }
             }
         }
         // In the order of the matrix they cost less; the last ring alone is asked for its neighbours.
-        self.nodes[known..self.last].sort_unstable();
+        if self.last > known {
+            self.nodes[known..self.last].sort_unstable();
+            (known..self.last).for_each(|k| self.places[self.nodes[k] as usize] = k as u32);
+        }
     }
 }
 
-/// Leaves of forces what free nodes feel: nothing where displacements are held, at masters what acts on their images.
-fn restrict<const D: usize>(body: &Body<D>, forces: &mut [Vector<D>]) {
+/// Leaves at masters what acts on their images.
+fn to_masters<const D: usize>(body: &Body<D>, forces: &mut [Vector<D>]) {
     for tie in body.mesh().ties() {
         let at_image = std::mem::replace(&mut forces[tie.image as usize], Vector::zeros());
         forces[tie.master as usize] += at_image;
     }
-    body.held().clear(forces);
 }

@@ -137,7 +137,8 @@ impl<const D: usize> Body<D> {
         let translation = 0.5 * momentum.norm_squared() / self.total_mass();
         let (mut rotation, mut angular_momentum) = (0.0, [0.0; 3]);
         if !self.is_axisymmetric() {
-            let (mut from_centre, mut arms) = (vec![Vector::zeros(); v.len()], vec![Vector::zeros(); v.len()]);
+            let (mut from_centre, mut arms) =
+                (vec![Vector::zeros(); v.len()], vec![Vector::zeros(); v.len()]);
             let rigid = self.rigid_mass(u, &mut from_centre, &mut arms);
             let orbit = tensor::cross(&rigid.centre, &momentum);
             // The mass matrix is symmetric: Σ y × M v is Σ M y × v.
