@@ -23,7 +23,7 @@ const RINGS: usize = 24;
 /// A blow on a few nodes costs what the cells around these cost: what is so far away that it does not feel it is not looked at.
 #[derive(Debug, Default)]
 pub struct MassSolver<const D: usize> {
-    /// The nodes that are looked at. All vectors below have an entry for each of these, but the last.
+    /// The nodes that are looked at. All vectors below have an entry for each of these, but the last two.
     reached: Reached,
     inverse_diagonal: Vec<f64>,
     change: Vec<Vector<D>>,
