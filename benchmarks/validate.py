@@ -16,7 +16,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "tests" / "validation"))
 
-from installed import refuse_another_carom
+from same_sources import refuse_another_carom
 from sections import (
     bars,
     beams,

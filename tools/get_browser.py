@@ -30,9 +30,14 @@ def found() -> str | None:
     return next(filter(None, [*shells, *map(shutil.which, NAMES)]), None)
 
 
+def found_firefox() -> str | None:
+    """Return the path of a Firefox."""
+    return shutil.which("firefox-esr") or shutil.which("firefox")
+
+
 PACKAGES: dict[str, Callable[[], object]] = {
     "chromium": found,
-    "firefox-esr": lambda: shutil.which("firefox-esr") or shutil.which("firefox"),
+    "firefox-esr": found_firefox,
     "xvfb": lambda: shutil.which("Xvfb"),
 }
 """What is wanted, as Debian calls it, and whether it is there."""
@@ -54,8 +59,7 @@ def main() -> int:
         missing.remove("chromium")
         if root:
             _ran(*playwright, "install-deps", "chromium")
-    if missing and root and shutil.which("apt-get"):
-        _ran("apt-get", "update", "-qq")
+    if missing and root and shutil.which("apt-get") and _ran("apt-get", "update", "-qq"):
         for name in missing:
             _ran("apt-get", "install", "-y", "-qq", "--no-install-recommends", name)
     for name, is_there in PACKAGES.items():

@@ -24,7 +24,7 @@ from typing import Any
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "tests" / "validation"))
 
-from installed import refuse_another_carom
+from same_sources import refuse_another_carom
 
 import carom
 from claims.judge import Verdict, judged

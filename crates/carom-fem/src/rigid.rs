@@ -156,7 +156,7 @@ impl<const D: usize> Body<D> {
 }
 
 /// Σ a × b, with three components.
-fn moments<const D: usize>(a: impl Iterator<Item = Vector<D>>, b: &[Vector<D>]) -> [f64; 3] {
+pub(crate) fn moments<const D: usize>(a: impl Iterator<Item = Vector<D>>, b: &[Vector<D>]) -> [f64; 3] {
     let mut sum = [0.0; 3];
     for (a, b) in a.zip(b) {
         let moment = tensor::cross(&a, b);

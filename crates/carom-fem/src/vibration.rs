@@ -1,9 +1,9 @@
 //! What of the velocities of a body is no rigid motion.
 
-use carom_mesh::{Vector, nodal, tensor};
+use carom_mesh::{Vector, nodal};
 
 use crate::Body;
-use crate::rigid::RigidMass;
+use crate::rigid::{RigidMass, moments};
 
 /// A field of velocities that has neither momentum nor angular momentum.
 #[derive(Debug, Default)]
@@ -37,13 +37,8 @@ impl<const D: usize> Vibration<D> {
         if held.is_empty() {
             // The field holds the positions from the centre first.
             let rigid = body.rigid_mass(u, field, arms);
-            let mut moment = [0.0; 3];
-            if body.mesh().ties().is_empty() {
-                for (y, p) in field.iter().zip(&*momentum) {
-                    let of_node = tensor::cross(y, p);
-                    (0..3).for_each(|i| moment[i] += of_node[i]);
-                }
-            }
+            let turns = body.mesh().ties().is_empty();
+            let moment = if turns { moments(field.iter().copied(), momentum) } else { [0.0; 3] };
             let motion = rigid.acceleration(&resultant, &moment);
             for (w, v) in field.iter_mut().zip(velocity) {
                 *w = v - RigidMass::force(&motion, 1.0, w);

@@ -86,7 +86,7 @@ def sources(tmp_path):
 def test_nothing_is_measured_with_a_carom_of_other_sources(monkeypatch, sources):
     """Symptom guarded against: half an hour of validation measured a version of the day before."""
     monkeypatch.syspath_prepend(BENCHMARKS)
-    from installed import changed_since_built
+    from same_sources import changed_since_built
 
     root, package = sources
     assert changed_since_built(root, package) is None
@@ -98,3 +98,13 @@ def test_nothing_is_measured_with_a_carom_of_other_sources(monkeypatch, sources)
     assert changed_since_built(root, package) == described
     (package / "case" / "body.py").unlink()
     assert changed_since_built(root, package) == described
+
+
+def test_the_validations_ask_whose_carom_it_is(monkeypatch, validate):
+    def refuse():
+        raise SystemExit("other sources")
+
+    monkeypatch.setattr(validate, "refuse_another_carom", refuse)
+    monkeypatch.setattr(sys, "argv", ["validate.py", "bars"])
+    with pytest.raises(SystemExit, match="other sources"):
+        validate.main()

@@ -5,9 +5,20 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).parents[3] / "tools"))
 import get_browser
-from get_browser import found
+from get_browser import found, found_firefox
 
-__all__ = ["BLIND", "WEBGL", "Pages", "drawn", "found", "frame", "resize", "scrub_to", "told"]
+__all__ = [
+    "BLIND",
+    "WEBGL",
+    "Pages",
+    "drawn",
+    "found",
+    "found_firefox",
+    "frame",
+    "resize",
+    "scrub_to",
+    "told",
+]
 
 SIZE = {"width": 1100, "height": 700}
 

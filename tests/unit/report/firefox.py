@@ -7,10 +7,11 @@ A message is its length, a colon, and JSON: `[0, number, command, parameters]` t
 import base64
 import json
 import os
-import shutil
 import socket
 import subprocess
 import time
+
+from browsing import found_firefox
 
 PREFERENCES = {
     "app.normandy.enabled": False,
@@ -23,18 +24,18 @@ PREFERENCES = {
     "webgl.force-enabled": True,
 }
 PATIENCE = 60.0
-"""How long it may take to start [s]."""
+"""How long it may take to start or to answer [s]."""
 
 WRONG = """
 const told = Services.console.getMessageArray().filter(m => m instanceof Ci.nsIScriptError);
 const own = told.filter(m => m.sourceName.startsWith("file:") || m.category.includes("CSP"));
 return own.map(m => m.errorMessage);
 """
+DRAWN = "requestAnimationFrame(() => requestAnimationFrame(arguments[0]));"
 
 
-def found():
-    """The path of a Firefox, if there is one."""
-    return shutil.which("firefox-esr") or shutil.which("firefox")
+class StartError(RuntimeError):
+    """What is installed does not start."""
 
 
 class Display:
@@ -50,7 +51,11 @@ class Display:
         )
         os.close(writer)
         with os.fdopen(reader) as told:
-            self.name = f":{told.readline().strip()}"
+            number = told.readline().strip()
+        if not number:
+            self._process.wait()
+            raise StartError("Xvfb does not start")
+        self.name = f":{number}"
 
     def close(self):
         self._process.terminate()
@@ -58,31 +63,33 @@ class Display:
 
 
 class Firefox:
-    """A window of Firefox with a profile of its own, on a display or, without one, on none."""
+    """A window of Firefox with a profile of its own on a display."""
 
-    def __init__(self, profile, display=None):
+    def __init__(self, profile, display):
         lines = (f"user_pref({json.dumps(k)}, {json.dumps(v)});" for k, v in PREFERENCES.items())
         (profile / "user.js").write_text("\n".join(lines), encoding="utf-8")
-        command = [found(), "--marionette", "--remote-allow-system-access", "--no-remote"]
-        own = {"DISPLAY": display} if display else {"MOZ_HEADLESS": "1"}
+        command = [found_firefox(), "--marionette", "--remote-allow-system-access", "--no-remote"]
+        environment = {**os.environ, "DISPLAY": display, "MOZ_ENABLE_WAYLAND": "0"}
+        environment.pop("WAYLAND_DISPLAY", None)
         self._process = subprocess.Popen(
             [*command, "--profile", str(profile)],
-            env={**os.environ, **own},
+            env=environment,
             stdout=subprocess.DEVNULL,
             stderr=subprocess.DEVNULL,
         )
+        self._socket = self._stream = None
         self._number = 0
         try:
             self._connect(profile / "MarionetteActivePort")
         except BaseException:
-            self._process.kill()
+            self.close()
             raise
 
     def _connect(self, port):
         end = time.monotonic() + PATIENCE
         while not (port.exists() and port.read_text()):
             if time.monotonic() > end or self._process.poll() is not None:
-                raise RuntimeError("Firefox does not start")
+                raise StartError("Firefox does not start")
             time.sleep(0.05)
         self._socket = socket.create_connection(("127.0.0.1", int(port.read_text())), PATIENCE)
         self._stream = self._socket.makefile("rb")
@@ -92,6 +99,8 @@ class Firefox:
     def _read(self):
         digits = b""
         while (digit := self._stream.read(1)) != b":":
+            if not digit:
+                raise RuntimeError("Firefox has gone")
             digits += digit
         return json.loads(self._stream.read(int(digits)))
 
@@ -119,14 +128,15 @@ class Firefox:
         self.ask("WebDriver:PerformActions", actions=[source])
 
     def picture(self, selector):
-        """An element as it is drawn, as a PNG."""
+        """An element as it is drawn once the page has come to draw, as a PNG."""
+        self.ask("WebDriver:ExecuteAsyncScript", script=DRAWN, args=[], sandbox=None)
         element = self.ask("WebDriver:FindElement", using="css selector", value=selector)["value"]
         (name,) = element.values()
         shot = self.ask("WebDriver:TakeScreenshot", id=name, full=False, hash=False)
         return base64.b64decode(shot["value"])
 
     def wrong(self):
-        """What it has told of errors in pages so far."""
+        """What it has told of errors in pages since it forgot."""
         return self._run_inside(WRONG)
 
     def forget(self):
@@ -142,6 +152,12 @@ class Firefox:
             self.ask("Marionette:SetContext", value="content")
 
     def close(self):
-        self.ask("Marionette:Quit", flags=["eForceQuit"])
-        self._socket.close()
-        self._process.wait(PATIENCE)
+        """End it, whatever state it is in."""
+        for connection in filter(None, (self._stream, self._socket)):
+            connection.close()
+        self._process.terminate()
+        try:
+            self._process.wait(PATIENCE)
+        except subprocess.TimeoutExpired:
+            self._process.kill()
+            self._process.wait()

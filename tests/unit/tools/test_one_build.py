@@ -28,6 +28,8 @@ def features(*arguments):
 )
 def test_the_wheel_and_the_library_for_c_are_built_of_the_crates_that_tests_have(built):
     """Symptom guarded against: faer, nalgebra and all of carom were compiled once for each."""
+    makefile = (ROOT / "Makefile").read_text(encoding="utf-8")
+    assert "CAROM_C_BUILT_WITH=--workspace $(MAKE) c" in makefile
     crates = features(*built, "--edges", "normal,build")
     tests = features("--workspace", "--edges", "all")
     assert len(crates) > 50

@@ -2,7 +2,7 @@
 
 use carom_fem::material::LawSpec;
 use carom_fem::{Body, BodySpec, HeldDof, MassKind, MassSolver};
-use carom_mesh::{CellKind, Mesh, Vector, nodal};
+use carom_mesh::{CellKind, Mesh, Vector, nodal, parallel};
 
 use crate::common::{PLANE, SPATIAL, distortion, elastic, grid, shaken, spec};
 
@@ -49,7 +49,51 @@ fn impulses_are_the_momenta_that_they_make() {
     every_cell::<3>(&SPATIAL);
 }
 
-/// A blow on one node goes no farther than it is felt, and the momentum is that of all.
+/// A blow is looked at as far as it is felt, beside supports that are farther away too, and nothing is left of the blow before.
+#[test]
+fn a_blow_goes_no_farther_than_it_is_felt() {
+    let cells = 120;
+    let mut body = body(grid::<2>(CellKind::Quad4, cells, |x| x), MassKind::Consistent);
+    let nodes = body.node_count();
+    body.hold([nodes as u32 - 1, nodes as u32 / 2 + 3].map(|node| HeldDof { node, component: 1 }));
+    let blow = |node: usize| {
+        let mut impulse = vec![Vector::zeros(); nodes];
+        impulse[node] = Vector::<2>::new(0.3, -1.0);
+        impulse
+    };
+    let solved = |solver: &mut MassSolver<2>, impulse: &[Vector<2>]| {
+        let mut change = vec![Vector::zeros(); nodes];
+        solver.solve(&body, impulse, &mut change);
+        change
+    };
+    let mut solver = MassSolver::default();
+    for node in [0, nodes / 2] {
+        assert!(lack_of(&body, blow(node)) < 1e-12, "node {node}");
+        let change = solved(&mut solver, &blow(node));
+        assert_eq!(change, solved(&mut MassSolver::default(), &blow(node)), "node {node}");
+        let felt = change.iter().filter(|v| v.amax() > 0.0).count();
+        assert!(felt > 500 && felt < nodes / 2, "node {node}: {felt} of {nodes}");
+    }
+}
+
+/// Threads share what is felt by many nodes.
+#[test]
+fn any_number_of_threads_comes_to_the_same_bits() {
+    let mut body = body(grid::<2>(CellKind::Quad4, 140, |x| x), MassKind::Consistent);
+    body.hold([HeldDof { node: 5, component: 0 }]);
+    assert!(body.node_count() > parallel::MANY);
+    let impulse = shaken::<2>(body.node_count(), 1.0, 0.3);
+    let solved = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
+        let mut change = impulse.clone();
+        pool.install(|| MassSolver::default().solve(&body, &impulse, &mut change));
+        change
+    };
+    assert!(lack_of(&body, impulse.clone()) < 1e-11);
+    assert_eq!(solved(1), solved(3));
+}
+
+/// A blow that all of a small body feels has the momentum of all.
 #[test]
 fn a_blow_on_a_node_is_felt_around_it() {
     for kind in [CellKind::Hex8, CellKind::Tet4] {

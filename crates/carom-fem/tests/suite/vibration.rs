@@ -12,14 +12,14 @@ fn body<const D: usize>(mesh: Mesh<D>, massless_contact: bool) -> Body<D> {
 }
 
 /// M v [kg m/s] of all nodes.
-fn density<const D: usize>(body: &Body<D>, v: &[Vector<D>]) -> Vec<Vector<D>> {
+fn momentum_density<const D: usize>(body: &Body<D>, v: &[Vector<D>]) -> Vec<Vector<D>> {
     let mut mv = vec![Vector::zeros(); v.len()];
     body.multiply_mass(v, &mut mv);
     mv
 }
 
 fn momenta<const D: usize>(body: &Body<D>, u: &[Vector<D>], v: &[Vector<D>]) -> Momenta<D> {
-    body.momenta(u, v, 0.5 * nodal::dot(v, &density(body, v)))
+    body.momenta(u, v, 0.5 * nodal::dot(v, &momentum_density(body, v)))
 }
 
 /// What vibrates has no momenta, and with the rigid motion makes up all the energy there is.
@@ -30,7 +30,7 @@ fn check<const D: usize>(kind: CellKind, massless_contact: bool) {
     let mut vibration = Vibration::<D>::default();
     let energy = vibration.measure(&body, &u, &v);
     let own = momenta(&body, &u, &v);
-    let mv = density(&body, &v);
+    let mv = momentum_density(&body, &v);
     assert!((own.momentum - nodal::total(&mv)).norm() < 1e-13 * own.momentum.norm(), "{kind:?}");
     let about_origin = body.angular_momentum(&u, &mv);
     let bound = 1e-13 * Vector::from(about_origin).norm();

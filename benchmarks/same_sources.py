@@ -28,6 +28,7 @@ def changed_since_built(root: Path, package: Path) -> Path | None:
         copy = package / source.relative_to(root / "python" / "carom")
         if not copy.exists() or copy.read_bytes() != source.read_bytes():
             return source
+    built_of = [*root.glob("Cargo.*"), *root.glob("crates/*/Cargo.toml")]
+    built_of += root.glob("crates/*/src/**/*.rs")
     native = max((module.stat().st_mtime for module in package.glob("_carom*")), default=0.0)
-    sources = sorted((root / "crates").glob("*/src/**/*.rs"))
-    return next((source for source in sources if source.stat().st_mtime > native), None)
+    return next((source for source in sorted(built_of) if source.stat().st_mtime > native), None)
