@@ -99,7 +99,7 @@ impl<const D: usize> Body<D> {
         if self.is_axisymmetric() {
             return [0.0; 3];
         }
-        moments(self.mesh().nodes().iter().zip(u).map(|(x, u)| x + u), mv)
+        total_moment(self.mesh().nodes().iter().zip(u).map(|(x, u)| x + u), mv)
     }
 }
 
@@ -142,7 +142,7 @@ impl<const D: usize> Body<D> {
             let rigid = self.rigid_mass(u, &mut from_centre, &mut arms);
             let orbit = tensor::cross(&rigid.centre, &momentum);
             // The mass matrix is symmetric: Σ y × M v is Σ M y × v.
-            let spin = moments(arms.iter().copied(), v);
+            let spin = total_moment(arms.iter().copied(), v);
             angular_momentum = std::array::from_fn(|i| orbit[i] + spin[i]);
             if self.mesh().ties().is_empty() {
                 let (_, turn) = rigid.acceleration(&Vector::zeros(), &spin);
@@ -156,7 +156,7 @@ impl<const D: usize> Body<D> {
 }
 
 /// Σ a × b, with three components.
-pub(crate) fn moments<const D: usize>(a: impl Iterator<Item = Vector<D>>, b: &[Vector<D>]) -> [f64; 3] {
+pub(crate) fn total_moment<const D: usize>(a: impl Iterator<Item = Vector<D>>, b: &[Vector<D>]) -> [f64; 3] {
     let mut sum = [0.0; 3];
     for (a, b) in a.zip(b) {
         let moment = tensor::cross(&a, b);

@@ -3,7 +3,7 @@
 use carom_mesh::{Vector, nodal};
 
 use crate::Body;
-use crate::rigid::{RigidMass, moments};
+use crate::rigid::{RigidMass, total_moment};
 
 /// A field of velocities that has neither momentum nor angular momentum.
 #[derive(Debug, Default)]
@@ -38,7 +38,7 @@ impl<const D: usize> Vibration<D> {
             // The field holds the positions from the centre first.
             let rigid = body.rigid_mass(u, field, arms);
             let turns = body.mesh().ties().is_empty();
-            let moment = if turns { moments(field.iter().copied(), momentum) } else { [0.0; 3] };
+            let moment = if turns { total_moment(field.iter().copied(), momentum) } else { [0.0; 3] };
             let motion = rigid.acceleration(&resultant, &moment);
             for (w, v) in field.iter_mut().zip(velocity) {
                 *w = v - RigidMass::force(&motion, 1.0, w);
