@@ -19,12 +19,15 @@ import many_bodies
 
 import carom
 
-CASES = ("discs", "balls", "block")
+CASES = ("discs", "balls", "block", "massless block")
 LAYERS = 8
 
 
 def scenario(name: str) -> carom.Scenario:
-    """Return a pile of 1,000 discs or 64 balls, or a block that lands on 5,041 nodes."""
+    """Return a pile of 1,000 discs or 64 balls, or a block that lands on 5,041 nodes.
+
+    Whether these nodes have mass is what the step's equations, and its work, depend on.
+    """
     if name == "discs":
         return many_bodies.pile(2, 1000)
     if name == "balls":
@@ -52,7 +55,10 @@ def scenario(name: str) -> carom.Scenario:
         ],
         obstacles=[carom.Plane(name="floor", point=[0.0, 0.0, 0.0], normal=[0.0, 0.0, 1.0])],
         contact=carom.Contact(
-            condition="midpoint", friction=0.2, sources="finer", targets="faceted"
+            condition="massless" if name == "massless block" else "midpoint",
+            friction=0.2,
+            sources="finer",
+            targets="faceted",
         ),
     )
 

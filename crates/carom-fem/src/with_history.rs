@@ -84,9 +84,33 @@ impl<'a, const D: usize> BodyWithHistory<'a, D> {
 
     /// Writes the forces [N] of a step from `u0` to `u1` that a blend of its stresses is made of.
     pub fn step_forces(&self, u0: &[Vector<D>], u1: &[Vector<D>], f: &mut StepForces<'_, D>) {
-        f.fill_with_zeros();
-        self.blocks().for_each(|(e, past)| e.add_step_forces(u0, u1, past, f));
-        [&mut *f.conserving, &mut *f.difference, &mut *f.end].into_iter().for_each(|f| self.finish(f));
+        self.blended(u0, u1, f, false);
+    }
+
+    /// Writes the [`Self::step_forces`] [N] to `f` and returns the [`Self::strain_energy`] at `u1` [J].
+    #[must_use]
+    pub fn step_forces_and_energy(
+        &self,
+        u0: &[Vector<D>],
+        u1: &[Vector<D>],
+        f: &mut StepForces<'_, D>,
+    ) -> f64 {
+        let energy = self.blended(u0, u1, f, true);
+        self.body.ranks.total(energy) * self.growth.energy()
+    }
+
+    /// Writes the [`Self::step_forces`] [N] to `f`; returns what cells that are here store at `u1`, if it is asked for.
+    fn blended(
+        &self,
+        u0: &[Vector<D>],
+        u1: &[Vector<D>],
+        f: &mut StepForces<'_, D>,
+        with_energy: bool,
+    ) -> f64 {
+        f.each().into_iter().for_each(|f| f.fill(Vector::zeros()));
+        let energy = self.blocks().map(|(e, past)| e.add_step_forces(u0, u1, past, f, with_energy)).sum();
+        f.each().into_iter().for_each(|f| self.finish(f));
+        energy
     }
 
     /// The stiffness ∂²E/∂u² [N/m] at `u`.

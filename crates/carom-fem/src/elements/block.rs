@@ -35,7 +35,7 @@ impl<const D: usize, const S: usize, const N: usize, K: Kinematics<D, S>> Elemen
     }
 
     fn add_internal_force(&self, u: &[Vector<D>], past: Past<'_>, force: &mut [Vector<D>]) {
-        self.grid.assemble(force, Batch::zeros, |pack, f, stresses| {
+        self.grid.assemble([force], Batch::zeros, |pack, f, [stresses]| {
             self.grid.deform_elastically(pack, u, past.growth, f);
             self.law.stresses(self.grid.batch(), f, self.grid.part(pack, past.history), stresses);
             0.0
@@ -44,7 +44,7 @@ impl<const D: usize, const S: usize, const N: usize, K: Kinematics<D, S>> Elemen
 
     fn add_internal_force_of_energy(&self, u: &[Vector<D>], past: Past<'_>, force: &mut [Vector<D>]) -> f64 {
         let scratch = || (Batch::zeros(), [0.0; BATCH]);
-        self.grid.assemble(force, scratch, |pack, (f, densities), stresses| {
+        self.grid.assemble([force], scratch, |pack, (f, densities), [stresses]| {
             self.grid.deform_elastically(pack, u, past.growth, f);
             let history = self.grid.part(pack, past.history);
             self.law.stresses(self.grid.batch(), f, history, stresses);
@@ -61,9 +61,10 @@ impl<const D: usize, const S: usize, const N: usize, K: Kinematics<D, S>> Elemen
         past: Past<'_>,
         force: &mut [Vector<D>],
     ) {
-        self.grid.assemble_step(u0, u1, past.growth, force, |pack, f0, f1, stresses| {
+        self.grid.assemble_step([u0, u1], past.growth, [force], |pack, [f0, f1], [stresses]| {
             let history = self.grid.part(pack, past.history);
             self.law.discrete_stresses(self.grid.batch(), f0, f1, history, stresses);
+            0.0
         });
     }
 
@@ -72,20 +73,20 @@ impl<const D: usize, const S: usize, const N: usize, K: Kinematics<D, S>> Elemen
         u0: &[Vector<D>],
         u1: &[Vector<D>],
         past: Past<'_>,
-        force: &mut StepForces<'_, D>,
-    ) {
-        let (mut f0, mut f1) = (Batch::zeros(), Batch::zeros());
-        let mut stresses = [Batch::zeros(), Batch::zeros(), Batch::zeros()];
-        let mut local = Grid::<D, S, N, K>::NOWHERE;
-        for pack in 0..self.grid.packs() {
-            self.grid.deform_elastically(pack, u0, past.growth, &mut f0);
-            self.grid.deform_elastically(pack, u1, past.growth, &mut f1);
+        forces: &mut StepForces<'_, D>,
+        with_energy: bool,
+    ) -> f64 {
+        self.grid.assemble_step([u0, u1], past.growth, forces.each(), |pack, [f0, f1], stresses| {
             let history = self.grid.part(pack, past.history);
-            self.law.all_step_stresses(self.grid.batch(), &f0, &f1, history, &mut stresses);
-            self.grid.add_forces(pack, &stresses[0], &mut local, force.conserving);
-            self.grid.add_forces(pack, &stresses[1], &mut local, force.difference);
-            self.grid.add_forces(pack, &stresses[2], &mut local, force.end);
-        }
+            self.law.all_step_stresses(self.grid.batch(), f0, f1, history, stresses);
+            if !with_energy {
+                return 0.0;
+            }
+            let mut densities = [0.0; BATCH];
+            self.law.energies(self.grid.batch(), f1, history, &mut densities);
+            let weights = self.grid.weights(pack);
+            self.grid.sum(pack, |q| weights[q] * densities[q])
+        })
     }
 
     fn add_stiffness(&self, u: &[Vector<D>], past: Past<'_>, k: &mut NodalMatrix<Matrix<D>>) {

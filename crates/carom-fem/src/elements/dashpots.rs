@@ -31,7 +31,7 @@ impl<const D: usize, const S: usize, const N: usize, K: Kinematics<D, S>> Dashpo
     for ViscousBlock<D, S, N, K>
 {
     fn add_force(&self, u0: &[Vector<D>], u1: &[Vector<D>], dt: f64, force: &mut [Vector<D>]) {
-        self.grid.assemble_step(u0, u1, Growth::default(), force, |_, f0, f1, stresses| {
+        self.grid.assemble_step([u0, u1], Growth::default(), [force], |_, [f0, f1], [stresses]| {
             for q in 0..self.grid.batch() {
                 let (f0, f1) = (embed(&f0.get(q)), embed(&f1.get(q)));
                 let stress = if self.objective {
@@ -41,6 +41,7 @@ impl<const D: usize, const S: usize, const N: usize, K: Kinematics<D, S>> Dashpo
                 };
                 stresses.set(q, &restrict(&stress));
             }
+            0.0
         });
     }
 

@@ -134,9 +134,13 @@ impl<const D: usize, const S: usize, const N: usize, K: Kinematics<D, S>> Grid<D
     /// Sum over the points of the cells of a pack, without the copies that fill it up.
     #[inline]
     pub fn sum(&self, pack: usize, of_point: impl Fn(usize) -> f64) -> f64 {
-        let lanes = self.cells(pack).len();
-        let row = |q: usize| (0..lanes).map(|lane| of_point(q * LANES + lane)).sum::<f64>();
-        (0..self.points_per_cell).map(row).sum()
+        let mut of_lanes = [0.0; LANES];
+        for q in 0..self.points_per_cell {
+            for (lane, sum) in of_lanes.iter_mut().enumerate() {
+                *sum += of_point(q * LANES + lane);
+            }
+        }
+        of_lanes[..self.cells(pack).len()].iter().sum()
     }
 
     /// Mean equivalent plastic strain of the cell in a lane.
@@ -164,7 +168,7 @@ impl<const D: usize, const S: usize, const N: usize, K: Kinematics<D, S>> Grid<D
 
     /// Adds the nodal forces of the `stresses` at the points of a pack to `f`; those of its cells go to `local`.
     #[inline]
-    pub fn add_forces(&self, pack: usize, stresses: &Batch<S>, local: &mut Local<D, N>, f: &mut [Vector<D>]) {
+    fn add_forces(&self, pack: usize, stresses: &Batch<S>, local: &mut Local<D, N>, f: &mut [Vector<D>]) {
         self.local_forces(pack, stresses, local);
         let lanes = self.cells(pack).len();
         for (nodes, force) in self.nodes[pack].iter().zip(&*local) {
@@ -175,22 +179,23 @@ impl<const D: usize, const S: usize, const N: usize, K: Kinematics<D, S>> Grid<D
         }
     }
 
-    /// Adds the nodal forces of the stresses that `stress` writes, pack by pack, to `force`; returns the sum of what it returns.
+    /// Adds the nodal forces of the stresses that `stress` writes, pack by pack, to `forces`; returns the sum of what it returns.
     /// Every thread that takes part has a `scratch` of its own.
     #[inline]
-    pub fn assemble<W>(
+    pub fn assemble<W, const M: usize>(
         &self,
-        force: &mut [Vector<D>],
+        mut forces: [&mut [Vector<D>]; M],
         scratch: impl Fn() -> W + Sync,
-        stress: impl Fn(usize, &mut W, &mut Batch<S>) -> f64 + Sync,
+        stress: impl Fn(usize, &mut W, &mut [Batch<S>; M]) -> f64 + Sync,
     ) -> f64 {
+        let batches = || [const { Batch::zeros() }; M];
         if let Some(staging) = self.staging.as_ref().filter(|_| has_threads()) {
             let assembled = staging.assemble(
-                force,
-                || (scratch(), Batch::zeros()),
+                &mut forces,
+                || (scratch(), batches()),
                 |pack, (work, stresses), local| {
                     let sum = stress(pack, work, stresses);
-                    self.local_forces(pack, stresses, local);
+                    stresses.iter().zip(local).for_each(|(p, local)| self.local_forces(pack, p, local));
                     sum
                 },
             );
@@ -198,32 +203,32 @@ impl<const D: usize, const S: usize, const N: usize, K: Kinematics<D, S>> Grid<D
                 return sum;
             }
         }
-        let (mut work, mut stresses, mut local) = (scratch(), Batch::zeros(), Self::NOWHERE);
+        let (mut work, mut stresses, mut local) = (scratch(), batches(), Self::NOWHERE);
         let mut sum = 0.0;
         for pack in 0..self.packs() {
             sum += stress(pack, &mut work, &mut stresses);
-            self.add_forces(pack, &stresses, &mut local, force);
+            for (stresses, force) in stresses.iter().zip(&mut forces) {
+                self.add_forces(pack, stresses, &mut local, force);
+            }
         }
         sum
     }
 
-    /// As [`Self::assemble`], for the stresses of a step from `u0` to `u1`, of which `stress` gets the elastic part of F at both ends.
+    /// As [`Self::assemble`], for the stresses of a step between the displacements `ends`, of which `stress` gets the elastic part of F at both ends.
     #[inline]
-    pub fn assemble_step(
+    pub fn assemble_step<const M: usize>(
         &self,
-        u0: &[Vector<D>],
-        u1: &[Vector<D>],
+        ends: [&[Vector<D>]; 2],
         growth: Growth,
-        force: &mut [Vector<D>],
-        stress: impl Fn(usize, &Batch<S>, &Batch<S>, &mut Batch<S>) + Sync,
-    ) {
+        forces: [&mut [Vector<D>]; M],
+        stress: impl Fn(usize, [&Batch<S>; 2], &mut [Batch<S>; M]) -> f64 + Sync,
+    ) -> f64 {
         let scratch = || (Batch::zeros(), Batch::zeros());
-        self.assemble(force, scratch, |pack, (f0, f1), stresses| {
-            self.deform_elastically(pack, u0, growth, f0);
-            self.deform_elastically(pack, u1, growth, f1);
-            stress(pack, f0, f1, stresses);
-            0.0
-        });
+        self.assemble(forces, scratch, |pack, (f0, f1), stresses| {
+            self.deform_elastically(pack, ends[0], growth, f0);
+            self.deform_elastically(pack, ends[1], growth, f1);
+            stress(pack, [f0, f1], stresses)
+        })
     }
 
     /// Writes the nodal forces of the `stresses` at the points of a pack to `local`.

@@ -161,7 +161,7 @@ impl<const D: usize, const N: usize, K: Kinematics<D, 3>> Elements<D> for MeanDi
     }
 
     fn add_internal_force(&self, u: &[Vector<D>], past: Past<'_>, force: &mut [Vector<D>]) {
-        self.grid.assemble(force, Batch::zeros, |pack, f, stresses| {
+        self.grid.assemble([force], Batch::zeros, |pack, f, [stresses]| {
             self.grid.deform_elastically(pack, u, past.growth, f);
             self.stresses(pack, f, past.history, stresses);
             0.0
@@ -175,8 +175,9 @@ impl<const D: usize, const N: usize, K: Kinematics<D, 3>> Elements<D> for MeanDi
         past: Past<'_>,
         force: &mut [Vector<D>],
     ) {
-        self.grid.assemble_step(u0, u1, past.growth, force, |pack, f0, f1, stresses| {
+        self.grid.assemble_step([u0, u1], past.growth, [force], |pack, [f0, f1], [stresses]| {
             self.discrete_stresses(pack, f0, f1, past.history, stresses);
+            0.0
         });
     }
 
@@ -185,25 +186,26 @@ impl<const D: usize, const N: usize, K: Kinematics<D, 3>> Elements<D> for MeanDi
         u0: &[Vector<D>],
         u1: &[Vector<D>],
         past: Past<'_>,
-        force: &mut StepForces<'_, D>,
-    ) {
-        let (mut f0, mut f1) = (Batch::zeros(), Batch::zeros());
-        let (mut start, mut end, mut other) = (Batch::zeros(), Batch::zeros(), Batch::zeros());
-        let mut local = Grid::<D, 3, N, K>::NOWHERE;
-        for pack in 0..self.grid.packs() {
-            self.grid.deform_elastically(pack, u0, past.growth, &mut f0);
-            self.grid.deform_elastically(pack, u1, past.growth, &mut f1);
-            self.stresses(pack, &f0, past.history, &mut start);
-            self.stresses(pack, &f1, past.history, &mut end);
-            self.grid.add_forces(pack, &end, &mut local, force.end);
-            self.discrete_stresses(pack, &f0, &f1, past.history, &mut other);
-            self.grid.add_forces(pack, &other, &mut local, force.conserving);
+        forces: &mut StepForces<'_, D>,
+        with_energy: bool,
+    ) -> f64 {
+        let stress = |pack: usize, [f0, f1]: [&Batch<3>; 2], stresses: &mut [Batch<3>; 3]| {
+            let [conserving, difference, end] = stresses;
+            self.discrete_stresses(pack, f0, f1, past.history, conserving);
+            self.stresses(pack, f0, past.history, difference);
+            self.stresses(pack, f1, past.history, end);
             for q in 0..self.grid.batch() {
-                let (f0, f1) = (f0.get(q), f1.get(q));
-                other.set(q, &stress_difference(&f0, &start.get(q), &f1, &end.get(q)));
+                let (start, end) = (difference.get(q), end.get(q));
+                difference.set(q, &stress_difference(&f0.get(q), &start, &f1.get(q), &end));
             }
-            self.grid.add_forces(pack, &other, &mut local, force.difference);
-        }
+            if !with_energy {
+                return 0.0;
+            }
+            let mut energies = [0.0; BATCH];
+            self.energies(pack, f1, past.history, &mut energies);
+            self.grid.sum(pack, |q| energies[q])
+        };
+        self.grid.assemble_step([u0, u1], past.growth, forces.each(), stress)
     }
 
     fn add_stiffness(&self, u: &[Vector<D>], past: Past<'_>, k: &mut NodalMatrix<Matrix<D>>) {

@@ -69,10 +69,9 @@ pub struct StepForces<'a, const D: usize> {
 }
 
 impl<const D: usize> StepForces<'_, D> {
-    pub(crate) fn fill_with_zeros(&mut self) {
-        [&mut *self.conserving, &mut *self.difference, &mut *self.end]
-            .into_iter()
-            .for_each(|f| f.fill(Vector::zeros()));
+    /// Those of the conserving stress, of the difference and of the end.
+    pub(crate) fn each(&mut self) -> [&mut [Vector<D>]; 3] {
+        [self.conserving, self.difference, self.end]
     }
 }
 
@@ -110,8 +109,15 @@ pub trait Elements<const D: usize>: Send + Sync + Debug {
     }
     /// Adds the force [N] of a step from `u0` to `u1` whose work is the change of the stored energy, f·(u₁ − u₀) = ΔE, to `f`.
     fn add_conserving_force(&self, u0: &[Vector<D>], u1: &[Vector<D>], past: Past<'_>, f: &mut [Vector<D>]);
-    /// Adds the forces of a step from `u0` to `u1`.
-    fn add_step_forces(&self, u0: &[Vector<D>], u1: &[Vector<D>], past: Past<'_>, f: &mut StepForces<'_, D>);
+    /// Adds the forces of a step from `u0` to `u1`; returns the stored energy at its end, or zero where it is not asked for.
+    fn add_step_forces(
+        &self,
+        u0: &[Vector<D>],
+        u1: &[Vector<D>],
+        past: Past<'_>,
+        f: &mut StepForces<'_, D>,
+        with_energy: bool,
+    ) -> f64;
     /// Adds the stiffness ∂²E/∂u² [N/m] to `k`.
     fn add_stiffness(&self, u: &[Vector<D>], past: Past<'_>, k: &mut NodalMatrix<Matrix<D>>);
     /// Appends the mean state of every cell.

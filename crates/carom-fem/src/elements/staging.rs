@@ -16,7 +16,9 @@ pub(super) struct Staging<const D: usize, const N: usize> {
     starts: Vec<u32>,
     /// Each as a pack, the node's number within the cell and the lane, in one number.
     cells: Vec<u32>,
-    /// Of every pack the nodal forces, and a number. Taken once for all packs, never within them.
+    /// Number of packs.
+    count: usize,
+    /// Nodal forces of a pack, and a number: as many for every pack as there are forces. Taken once for all packs, never within them.
     packs: Mutex<Vec<(Local<D, N>, f64)>>,
 }
 
@@ -42,17 +44,16 @@ impl<const D: usize, const N: usize> Staging<D, N> {
             at_nodes[next[node] as usize] = place as u32;
             next[node] += 1;
         }
-        let empty = ([[[0.0; LANES]; D]; N], 0.0);
-        Some(Self { starts, cells: at_nodes, packs: Mutex::new(vec![empty; packs.len()]) })
+        Some(Self { starts, cells: at_nodes, count: packs.len(), packs: Mutex::default() })
     }
 
-    /// Adds the nodal forces that `of_pack` writes to `force` and returns the sum of the numbers that come with them. It returns None where it
+    /// Adds the nodal forces that `of_pack` writes to `forces` and returns the sum of the numbers that come with them. It returns None where it
     /// is in use by another step with the same body; this thread may even have to finish that step.
-    pub fn assemble<W>(
+    pub fn assemble<W, const M: usize>(
         &self,
-        force: &mut [Vector<D>],
+        forces: &mut [&mut [Vector<D>]; M],
         scratch: impl Fn() -> W + Sync,
-        of_pack: impl Fn(usize, &mut W, &mut Local<D, N>) -> f64 + Sync,
+        of_pack: impl Fn(usize, &mut W, [&mut Local<D, N>; M]) -> f64 + Sync,
     ) -> Option<f64> {
         let mut packs = match self.packs.try_lock() {
             Ok(packs) => packs,
@@ -60,21 +61,29 @@ impl<const D: usize, const N: usize> Staging<D, N> {
             Err(TryLockError::Poisoned(packs)) => packs.into_inner(),
             Err(TryLockError::WouldBlock) => return None,
         };
-        share(&mut packs, CHUNK / NODES_PER_CELL / LANES, &|first, packs| {
+        if packs.len() < self.count * M {
+            packs.resize(self.count * M, ([[[0.0; LANES]; D]; N], 0.0));
+        }
+        let packs = &mut packs[..self.count * M];
+        share(packs, CHUNK / NODES_PER_CELL / LANES * M, &|first, packs| {
             let mut work = scratch();
-            for (pack, (local, sum)) in (first..).zip(packs) {
-                *sum = of_pack(pack, &mut work, local);
+            for (pack, forces) in (first / M..).zip(packs.chunks_exact_mut(M)) {
+                let of_forces: &mut [_; M] = forces.try_into().expect("as many as there are forces");
+                let sum = of_pack(pack, &mut work, of_forces.each_mut().map(|(local, _)| local));
+                of_forces[0].1 = sum;
             }
         });
-        each_chunk(force, |first, force| {
-            for (node, force) in (first..).zip(force) {
-                let cells = self.starts[node] as usize..self.starts[node + 1] as usize;
-                for place in self.cells[cells].iter().map(|&place| place as usize) {
-                    let local = &packs[place / (N * LANES)].0[place / LANES % N];
-                    (0..D).for_each(|i| force[i] += local[i][place % LANES]);
+        for (number, force) in forces.iter_mut().enumerate() {
+            each_chunk(force, |first, force| {
+                for (node, force) in (first..).zip(force) {
+                    let cells = self.starts[node] as usize..self.starts[node + 1] as usize;
+                    for place in self.cells[cells].iter().map(|&place| place as usize) {
+                        let local = &packs[place / (N * LANES) * M + number].0[place / LANES % N];
+                        (0..D).for_each(|i| force[i] += local[i][place % LANES]);
+                    }
                 }
-            }
-        });
-        Some(packs.iter().map(|(_, sum)| sum).sum())
+            });
+        }
+        Some(packs.iter().step_by(M).map(|(_, sum)| sum).sum())
     }
 }

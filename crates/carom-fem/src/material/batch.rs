@@ -20,7 +20,7 @@ impl<const S: usize> Batch<S> {
     /// Zero at every point.
     #[inline(always)]
     #[must_use]
-    pub fn zeros() -> Self {
+    pub const fn zeros() -> Self {
         Self { components: [[[0.0; BATCH]; S]; S] }
     }
 
@@ -42,14 +42,16 @@ impl<const S: usize> Batch<S> {
     }
 }
 
+// Registers are filled by loops over numbers. Iterators over arrays of arrays went by the stack wherever the compiler chose not to unroll them, which
+// doubled the instructions of a law.
 impl<const S: usize> Batch<S> {
     /// The matrices at as many points as a register has lanes, from `point` on.
     #[inline(always)]
     pub(super) fn load<V: Simd>(&self, point: usize) -> [[V::f64s; S]; S] {
         let mut matrices = [[V::as_simd_f64s(&self.components[0][0][point..]).0[0]; S]; S];
-        for (matrices, rows) in matrices.iter_mut().zip(&self.components) {
-            for (matrix, row) in matrices.iter_mut().zip(rows) {
-                *matrix = V::as_simd_f64s(&row[point..]).0[0];
+        for i in 0..S {
+            for j in 0..S {
+                matrices[i][j] = V::as_simd_f64s(&self.components[i][j][point..]).0[0];
             }
         }
         matrices
@@ -58,9 +60,9 @@ impl<const S: usize> Batch<S> {
     /// Writes the matrices at as many points as a register has lanes, from `point` on.
     #[inline(always)]
     pub(super) fn store<V: Simd>(&mut self, point: usize, matrices: [[V::f64s; S]; S]) {
-        for (rows, matrices) in self.components.iter_mut().zip(matrices) {
-            for (row, matrix) in rows.iter_mut().zip(matrices) {
-                V::as_mut_simd_f64s(&mut row[point..]).0[0] = matrix;
+        for i in 0..S {
+            for j in 0..S {
+                V::as_mut_simd_f64s(&mut self.components[i][j][point..]).0[0] = matrices[i][j];
             }
         }
     }

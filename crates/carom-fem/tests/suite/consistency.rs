@@ -127,7 +127,11 @@ fn works<const D: usize>(cells: &[CellKind]) {
             let (mut conserving, mut difference, mut end) = (zeros.clone(), zeros.clone(), zeros);
             let mut forces =
                 StepForces { conserving: &mut conserving, difference: &mut difference, end: &mut end };
+            let energy = body.after(&[]).step_forces_and_energy(&u0, &u1, &mut forces);
+            assert!((energy - body.strain_energy(&u1)).abs() < 1e-14 * scale, "{name}");
+            let of_both = [forces.conserving.to_vec(), forces.difference.to_vec(), forces.end.to_vec()];
             body.step_forces(&u0, &u1, &mut forces);
+            assert_eq!(of_both, [&*forces.conserving, &*forces.difference, &*forces.end], "{name}");
             let inner = force(&body, &u1);
             for k in 0..n {
                 assert!((conserving[k] - f[k]).norm() < 1e-12 * scale, "{name}");

@@ -29,22 +29,42 @@ impl<const D: usize> BlendedForces<D> {
         outlook: Outlook,
         scratch: &mut ResidualScratch<D>,
     ) -> Balance {
-        let nodes = equation.motion.len();
-        let Self { conserving, difference, end, middle, from_centre, arms } = self;
-        for forces in [conserving, difference, end, middle, from_centre, arms] {
-            forces.resize(nodes, Vector::zeros());
-        }
-        let body = equation.body;
-        let Self { conserving, difference, end, middle, from_centre, arms } = self;
-        equation.with_history.step_forces(
-            equation.start,
-            equation.displacement,
-            &mut StepForces { conserving, difference, end },
-        );
-        let viscous = equation.viscous_force(scratch);
+        let mut forces = self.step_forces(equation.motion.len());
+        equation.with_history.step_forces(equation.start, equation.displacement, &mut forces);
         if outlook == Outlook::First {
+            equation.viscous_force(scratch);
             return Balance::default();
         }
+        self.balance(equation, outlook, scratch)
+    }
+
+    /// The balance at the end of a step, and the strain energy there [J].
+    pub fn close(&mut self, equation: &Equation<'_, D>, scratch: &mut ResidualScratch<D>) -> (Balance, f64) {
+        let mut forces = self.step_forces(equation.motion.len());
+        let energy =
+            equation.with_history.step_forces_and_energy(equation.start, equation.displacement, &mut forces);
+        (self.balance(equation, Outlook::Pressed, scratch), energy)
+    }
+
+    /// The forces inside, to be written, of a body with so many nodes.
+    fn step_forces(&mut self, nodes: usize) -> StepForces<'_, D> {
+        let Self { conserving, difference, end, middle, from_centre, arms } = self;
+        for forces in [&mut *conserving, &mut *difference, &mut *end, middle, from_centre, arms] {
+            forces.resize(nodes, Vector::zeros());
+        }
+        StepForces { conserving, difference, end }
+    }
+
+    /// The balance of the forces inside, which get the rigid force fields that go with them.
+    fn balance(
+        &mut self,
+        equation: &Equation<'_, D>,
+        outlook: Outlook,
+        scratch: &mut ResidualScratch<D>,
+    ) -> Balance {
+        let body = equation.body;
+        let Self { conserving, difference, end, middle, from_centre, arms } = self;
+        let viscous = equation.viscous_force(scratch);
         for ((m, u), d) in middle.iter_mut().zip(equation.start).zip(equation.motion) {
             *m = u + d * 0.5;
         }

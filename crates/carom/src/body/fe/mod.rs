@@ -391,19 +391,17 @@ impl<const D: usize> Body<D> for FeBody<D> {
             nodal::each(jump, [&*end.velocity, start.velocity], |jump, [v1, v0]| *jump = v1 - v0);
         }
         let [_, grown] = part.growth_of(guess.interval);
-        let mut elastic = None;
-        let exchanged = blend.map(|weight| {
-            let Balance { missing, available, .. } = blended.measure(&equation, Outlook::Pressed, scratch);
+        // What is blended has grown half way.
+        let (energy, growth, exchanged);
+        if let Some(weight) = blend {
+            let (Balance { missing, available, .. }, stored) = blended.close(&equation, scratch);
             end.internal_force.copy_from_slice(&blended.end);
-            missing - weight * available + end.spring_work
-        });
-        if exchanged.is_none() {
-            // After plastic flow the stored energy is another: that of the new history.
-            let energy = equation
-                .with_history
-                .grown(grown)
-                .internal_force_and_energy(guess.displacement, end.internal_force);
-            elastic = equation.with_history.is_virgin().then_some(energy);
+            (energy, growth) = (stored, equation.with_history.growth());
+            exchanged = Some(missing - weight * available + end.spring_work);
+        } else {
+            let with_history = equation.with_history.grown(grown);
+            energy = with_history.internal_force_and_energy(guess.displacement, end.internal_force);
+            (growth, exchanged) = (grown, None);
         }
         let mut prescribed = self.part.work_of_growth(guess);
         if is_held {
@@ -415,8 +413,12 @@ impl<const D: usize> Body<D> for FeBody<D> {
         body.multiply_mass(end.velocity, momentum);
         let kinetic = 0.5 * nodal::dot(end.velocity, momentum);
         let plastic = equation.with_history.grown(grown).update(guess.displacement, end.history);
-        let strain =
-            elastic.unwrap_or_else(|| body.after(end.history).grown(grown).strain_energy(guess.displacement));
+        // After plastic flow the stored energy is another: that of the new history.
+        let strain = if equation.with_history.is_virgin() && growth == grown {
+            energy
+        } else {
+            body.after(end.history).grown(grown).strain_energy(guess.displacement)
+        };
         let (external, viscous) = equation.external_and_viscous_work(scratch);
         let mut scheme = 0.0;
         if map.kinetic_dissipation != 0.0 {
