@@ -19,7 +19,7 @@ import many_bodies
 
 import carom
 
-CASES = ("discs", "balls", "block", "massless block")
+CASES = ("discs", "balls", "block", "massless-block")
 LAYERS = 8
 
 
@@ -55,7 +55,7 @@ def scenario(name: str) -> carom.Scenario:
         ],
         obstacles=[carom.Plane(name="floor", point=[0.0, 0.0, 0.0], normal=[0.0, 0.0, 1.0])],
         contact=carom.Contact(
-            condition="massless" if name == "massless block" else "midpoint",
+            condition="massless" if name == "massless-block" else "midpoint",
             friction=0.2,
             sources="finer",
             targets="faceted",
