@@ -6,6 +6,7 @@
 
 pub(crate) mod fe;
 pub(crate) mod foreign;
+pub(crate) mod lent;
 pub(crate) mod reduced;
 pub(crate) mod rigid;
 

@@ -13,8 +13,8 @@ pub(super) fn exchange<const D: usize>(
     method: &Method<D>,
     work: &mut Workspace<D>,
 ) -> Result<(), CheckpointError> {
-    let compliances = &mut work.contacts.reduced.delassus.compliances;
-    for (i, (body, compliance)) in work.bodies.iter_mut().zip(compliances).enumerate() {
+    let compliances = &mut work.iterating.contacts.reduced.delassus.compliances;
+    for (i, (body, compliance)) in work.iterating.bodies.iter_mut().zip(compliances).enumerate() {
         let name = format!("factors/{i}");
         if body.exchange(archive, &name, &|dt| method.scheme.step_map(dt))? {
             compliance.exchange(archive, &name, &mut **body)?;

@@ -23,11 +23,13 @@ type Done = Result<(), CheckpointError>;
 
 /// Records or replays how far a run has come and what it has gathered on the way.
 pub(super) fn exchange<const D: usize>(archive: &mut Archive<'_>, run: &mut Simulation<D>) -> Done {
-    archive
-        .integers("run/step", [&mut run.grid.step, &mut run.history_rows, &mut run.work.factorisations])?;
+    archive.integers(
+        "run/step",
+        [&mut run.grid.step, &mut run.history_rows, &mut run.work.iterating.factorisations],
+    )?;
     archive.integers("run/halvings", [&mut run.halvings])?;
     archive.numbers("run/since_look", run.work.since_look.iter_mut().map(|l| &mut l.wandered))?;
-    archive.flags("run/asleep", &mut run.work.contacts.finder.asleep)?;
+    archive.flags("run/asleep", &mut run.work.iterating.contacts.finder.asleep)?;
     resting(archive, &mut run.work)?;
     archive.optional("run/last_recorded", [&mut run.last_recorded])?;
     archive.numbers("run/initial_energies", run.initial_energies.iter_mut().flat_map(|e| e.terms_mut()))?;

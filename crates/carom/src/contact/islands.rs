@@ -41,6 +41,12 @@ struct Island<const D: usize> {
     solved_by: SolverKind,
 }
 
+/// Exchanges two sets of contacts of a step: which bodies contacts touch is said by the present one, always.
+fn exchange<const D: usize>(present: &mut ActiveSet<D>, other: &mut ActiveSet<D>) {
+    std::mem::swap(present, other);
+    std::mem::swap(&mut present.touched, &mut other.touched);
+}
+
 impl<const D: usize> Island<D> {
     fn clear(&mut self) {
         self.bodies.clear();
@@ -50,8 +56,9 @@ impl<const D: usize> Island<D> {
 
     /// Puts what is known of it in the place of what is there.
     fn exchange(&mut self, active: &mut ActiveSet<D>, reduced: &mut Reduced<D>) {
-        let Self { active: own, problem, offsets, guess, .. } = self;
-        std::mem::swap(own, active);
+        let Self { active: own, problem, offsets, guess, solved_by, .. } = self;
+        exchange(active, own);
+        std::mem::swap(solved_by, &mut reduced.solved_by);
         std::mem::swap(problem, &mut reduced.problem);
         std::mem::swap(offsets, &mut reduced.offsets);
         std::mem::swap(guess, &mut reduced.guess);
@@ -186,10 +193,23 @@ impl<const D: usize> Islands<D> {
     pub fn divide(&mut self, given: &Given<'_, D>, active: &mut ActiveSet<D>) -> usize {
         let count = self.find(given, active);
         if self.is_divided() {
-            std::mem::swap(active, &mut self.whole);
+            exchange(active, &mut self.whole);
             self.share(given);
         }
         count
+    }
+
+    /// The bodies of an island, ascending, and how many contacts it has.
+    pub fn island(&self, island: usize) -> (&[usize], usize) {
+        let Island { bodies, numbers, .. } = &self.all[island];
+        (bodies, numbers.len())
+    }
+
+    /// Hands these islands over `to` others.
+    pub fn hand_over(&mut self, islands: &[usize], to: &mut Self) {
+        to.count = self.count;
+        to.all.resize_with(to.all.len().max(self.count), Island::default);
+        islands.iter().for_each(|&island| std::mem::swap(&mut self.all[island], &mut to.all[island]));
     }
 
     /// Makes the contacts of an island the `active` ones; returns its bodies, ascending.
@@ -201,7 +221,6 @@ impl<const D: usize> Islands<D> {
     ) -> Vec<usize> {
         if self.is_divided() {
             self.all[island].exchange(active, reduced);
-            std::mem::swap(&mut active.touched, &mut self.whole.touched);
         }
         std::mem::take(&mut self.all[island].bodies)
     }
@@ -216,8 +235,6 @@ impl<const D: usize> Islands<D> {
     ) {
         self.all[island].bodies = bodies;
         if self.is_divided() {
-            std::mem::swap(&mut active.touched, &mut self.whole.touched);
-            self.all[island].solved_by = reduced.solved_by;
             self.all[island].exchange(active, reduced);
         }
     }
@@ -231,7 +248,7 @@ impl<const D: usize> Islands<D> {
         self.gather_problems(reduced);
         let largest = self.all[..self.count].iter().max_by_key(|island| island.numbers.len());
         reduced.solved_by = largest.map_or(reduced.solved_by, |island| island.solved_by);
-        std::mem::swap(active, &mut self.whole);
+        exchange(active, &mut self.whole);
     }
 
     /// Gives up a step in which the iterations of an island have failed: its problem is the last one posed.
@@ -239,7 +256,7 @@ impl<const D: usize> Islands<D> {
         if self.is_divided() {
             std::mem::swap(&mut self.all[island].problem, &mut reduced.problem);
             std::mem::swap(&mut self.all[island].guess, &mut reduced.guess);
-            std::mem::swap(active, &mut self.whole);
+            exchange(active, &mut self.whole);
         }
     }
 

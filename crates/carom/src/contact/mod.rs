@@ -93,6 +93,19 @@ impl<const D: usize> Contacts<D> {
         self.islands.divide(given, &mut self.active)
     }
 
+    /// The bodies of an island, ascending, and how many contacts it has.
+    pub fn island(&self, island: usize) -> (&[usize], usize) {
+        self.islands.island(island)
+    }
+
+    /// Hands islands of the step, and what is known of the compliance of `bodies`, over `to` other contacts.
+    pub fn hand_over(&mut self, islands: &[usize], bodies: &[usize], to: &mut Self) {
+        self.islands.hand_over(islands, &mut to.islands);
+        to.active.touched.clone_from(&self.active.touched);
+        let [from, to] = [self, to].map(|contacts| &mut contacts.reduced.delassus.compliances);
+        bodies.iter().for_each(|&i| std::mem::swap(&mut from[i], &mut to[i]));
+    }
+
     /// Makes the contacts of an island the active ones; returns its bodies, ascending.
     pub fn enter(&mut self, island: usize) -> Vec<usize> {
         self.islands.enter(island, &mut self.active, &mut self.reduced)

@@ -23,6 +23,11 @@ impl Forest {
         self.parents[number] = number;
     }
 
+    /// Puts a number where it is in `other`: so must all of its tree be.
+    pub fn take(&mut self, number: usize, other: &Self) {
+        self.parents[number] = other.parents[number];
+    }
+
     /// The root of the tree of a number.
     pub fn root_of(&self, mut number: usize) -> usize {
         while self.parents[number] != number {

@@ -59,7 +59,7 @@ impl<const D: usize> Stepper<'_, D> {
         if let Some(Push { body, before, .. }) = push {
             let nodes = self.model.assembly.nodes(body);
             self.state.velocity[nodes].copy_from_slice(&before);
-            self.state.refresh(&self.model.assembly, &self.work.bodies);
+            self.state.refresh(&self.model.assembly, &self.work.iterating.bodies);
         }
         leads_there
     }
@@ -102,16 +102,16 @@ impl<const D: usize> Stepper<'_, D> {
     /// Pushes the body that is about to give way, if one is.
     fn push(&mut self) -> Option<Push<D>> {
         let Self { model, state, work, .. } = self;
-        let GivingWay { body, motion } = work.newton.giving_way.take()?;
+        let GivingWay { body, motion } = work.iterating.newton.giving_way.take()?;
         let nodes = model.assembly.nodes(body);
         let kinetic = state.body_energies[body].kinetic;
         let before = state.velocity[nodes.clone()].to_vec();
-        let mass = |own: u32| work.bodies[body].mass_of(own);
+        let mass = |own: u32| work.iterating.bodies[body].mass_of(own);
         let of_unit_speed =
             0.5 * (0..).zip(&motion).map(|(own, x)| mass(own) * x.norm_squared()).sum::<f64>();
         let speed = (PUSH * state.energies.strain / of_unit_speed).sqrt();
         nodal::each(&mut state.velocity[nodes], [&motion], |v, [x]| *v = x * speed);
-        state.refresh(&model.assembly, &work.bodies);
+        state.refresh(&model.assembly, &work.iterating.bodies);
         Some(Push { body, energy: state.body_energies[body].kinetic - kinetic, before })
     }
 

@@ -69,7 +69,7 @@ impl<const D: usize> Stepper<'_, D> {
                 }
                 Err(reason) => {
                     self.failed += 1;
-                    self.work.contacts.finder.forget_end();
+                    self.work.iterating.contacts.finder.forget_end();
                     let is_short = size <= whole >> bridge::AFTER.min(self.method.max_halvings);
                     if self.method.bridges && is_short {
                         let there = end - dt * ((whole - done - size) as f64 / whole as f64);

@@ -45,7 +45,7 @@ impl<const D: usize> Simulation<D> {
         }
         model.take_over(state);
         stage.set_in_motion(state);
-        state.refresh(&model.assembly, &self.work.bodies);
+        state.refresh(&model.assembly, &self.work.iterating.bodies);
         bond(&model.assembly, state);
         if !state.is_finite() {
             let message = "the energy of the initial displacements is not finite; check their unit, metres";

@@ -261,7 +261,7 @@ impl<const D: usize> Simulation<D> {
         state.time = still.time;
         (state.displacement, state.anchor, state.reactions) =
             (still.displacement, still.anchor, still.reactions);
-        state.refresh(&model.assembly, &work.bodies);
+        state.refresh(&model.assembly, &work.iterating.bodies);
         self.restart();
     }
 
@@ -461,7 +461,7 @@ impl<const D: usize> Simulation<D> {
     fn record(&mut self) {
         self.complete_tracked();
         let stage = &self.stages[self.current];
-        let contacts = &self.work.contacts;
+        let contacts = &self.work.iterating.contacts;
         let pairs = &stage.model.assembly.contact.pairs;
         let suspects = contacts.finder.suspects(pairs);
         let min_gap = self.history.record(

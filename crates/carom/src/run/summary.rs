@@ -282,7 +282,7 @@ impl<const D: usize> Simulation<D> {
             end_time: self.state.time,
             time_step: self.grid.time_step,
             newton_iterations: t.newton_iterations,
-            factorisations: self.work.factorisations,
+            factorisations: self.work.factorisations(),
             retried_steps: t.retried,
             energy: EnergySummary {
                 initial: self.initial_energies.iter().map(Energies::total).sum(),

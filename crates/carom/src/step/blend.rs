@@ -115,6 +115,13 @@ impl Blend {
         }
     }
 
+    /// Takes what iterations with `other` have come to for a body.
+    pub fn take(&mut self, body: usize, other: &Self) {
+        self.balances[body] = other.balances[body];
+        self.weight[body] = other.weight[body];
+        self.forest.take(body, &other.forest);
+    }
+
     /// Takes note that a body rests: it is a group of its own, and nothing of it is blended.
     pub fn rest(&mut self, body: usize) {
         self.forest.part(body);

@@ -4,6 +4,7 @@ use carom_contact::{Contact, Solid, shares};
 use carom_fem::material::PlasticState;
 use carom_mesh::Vector;
 
+use super::iterating::Iterating;
 use super::landing::{Landing, restore, rubbed};
 use super::repaying::repay;
 use super::report::{PairReport, StepReport};
@@ -39,29 +40,30 @@ pub(super) fn commit<const D: usize>(
     let mut report = StepReport {
         newton_iterations,
         min_gap: f64::INFINITY,
-        free_motion: work.newton.free_motion,
+        free_motion: work.iterating.newton.free_motion,
         ..StepReport::default()
     };
     next.time = interval.end;
-    if work.contacts.active.unsettled > 0.0 {
-        return Err(StepError::FrictionUnsettled { off: work.contacts.active.unsettled });
+    if work.iterating.contacts.active.unsettled > 0.0 {
+        return Err(StepError::FrictionUnsettled { off: work.iterating.contacts.active.unsettled });
     }
     keep_contacts(given, next, work, &mut report);
     if interval.is_blended {
-        work.resting.resting().for_each(|i| work.blend.rest(i));
-        report.onset = work.blend.onset();
-        report.blend = work.blend.largest_weight();
+        work.resting.resting().for_each(|i| work.iterating.blend.rest(i));
+        report.onset = work.iterating.blend.onset();
+        report.blend = work.iterating.blend.largest_weight();
     }
     let obstacles = &mut next.velocity[assembly.node_count()..];
     for (v, motion) in obstacles.iter_mut().zip(&assembly.obstacle_motions) {
         *v = motion.velocity(next.time);
     }
     next.support.fill(Vector::zeros());
-    work.springs.pull(given, &work.motion, &next.displacement);
+    work.springs.pull(given, &work.iterating.motion, &next.displacement);
     close_bodies(given, next, work);
     work.springs.close(&mut work.body_ledgers);
     work.pair_reports.clear();
-    let Workspace { bodies, contacts, impulses, motion, body_ledgers, .. } = work;
+    let Workspace { iterating: Iterating { bodies, contacts, motion, .. }, impulses, body_ledgers, .. } =
+        work;
     let (active, at_end) = (&contacts.active, &contacts.at_end);
     let landing = Landing { active, at_end, motion, masses: bodies.as_mut_slice(), ledgers: body_ledgers };
     restore(given, next, landing, impulses);
@@ -93,7 +95,7 @@ fn keep_contacts<const D: usize>(
     work: &mut Workspace<D>,
     report: &mut StepReport,
 ) {
-    let Workspace { contacts, motion, resting, .. } = work;
+    let Workspace { iterating: Iterating { contacts, motion, .. }, resting, .. } = work;
     if contacts.active.contacts.is_empty() {
         next.reactions.clear();
         next.contact_force.fill(Vector::zeros());
@@ -130,7 +132,13 @@ fn carry<const D: usize>(
 /// Completes the states of the bodies and closes their books.
 fn close_bodies<const D: usize>(given: &Given<'_, D>, next: &mut State<D>, work: &mut Workspace<D>) {
     let assembly = given.assembly;
-    let Workspace { bodies, contacts, blend, motion, body_ledgers, springs, resting, .. } = work;
+    let Workspace {
+        iterating: Iterating { bodies, contacts, blend, motion, .. },
+        body_ledgers,
+        springs,
+        resting,
+        ..
+    } = work;
     resting.keep(given, next, bodies, body_ledgers);
     let State { displacement, contact_force, velocity, internal_force, .. } = next;
     contacts.weigh(given, [&given.state.reactions, &next.reactions]);
@@ -178,7 +186,7 @@ fn book_impulses<const D: usize>(
     report: &mut StepReport,
 ) {
     let assembly = given.assembly;
-    let Workspace { contacts, impulses, motion, pair_reports, .. } = work;
+    let Workspace { iterating: Iterating { contacts, motion, .. }, impulses, pair_reports, .. } = work;
     let State { reactions, friction_energy, displacement, .. } = next;
     impulses.join(&contacts.at_end, reactions, |reaction, done, normal, has_landed| {
         let own = assembly.contact.pairs.get(reaction.pair as usize);
@@ -214,8 +222,15 @@ fn close_contacts<const D: usize>(
     report: &mut StepReport,
 ) {
     let Given { assembly, state, interval, .. } = *given;
-    let Workspace { contacts, blend, motion, pair_reports, body_ledgers, impulses, booked, resting, .. } =
-        work;
+    let Workspace {
+        iterating: Iterating { contacts, blend, motion, .. },
+        pair_reports,
+        body_ledgers,
+        impulses,
+        booked,
+        resting,
+        ..
+    } = work;
     let pair_of = |reaction: &Reaction<D>| assembly.contact.pairs.get(reaction.pair as usize).between();
     for (k, reaction) in next.reactions.iter().enumerate() {
         if impulses.arriving.binary_search(&k).is_ok() {

@@ -1,35 +1,34 @@
 //! One correction of the iterations of a step: residuals, and both halves of the solves for them.
 
-use carom_mesh::nodal;
+use carom_mesh::{Vector, nodal};
 
+use super::iterating::Iterating;
 use super::newton::Newton;
 use super::newton::control::CONTROL;
-use super::workspace::Workspace;
 use crate::body::Outlook;
 use crate::contact::Contacts;
 use crate::error::StepError;
 use crate::model::each_body::{PerBody, PerNode, each_body, try_each_body};
 use crate::model::given::Given;
-use crate::model::state::State;
 
 /// Residuals of the `bodies` without reactions, in this `iteration`.
 pub(super) fn residuals<const D: usize>(
     bodies: &[usize],
     iteration: usize,
     given: &Given<'_, D>,
-    next: &State<D>,
-    work: &mut Workspace<D>,
+    reached: &[Vector<D>],
+    work: &mut Iterating<D>,
 ) {
     let is_blended = given.interval.is_blended;
     let Contacts { on_masses, active, .. } = &mut work.contacts;
     on_masses.take(bodies, given, active);
     if is_blended {
-        weigh_blend(bodies, iteration, given, next, work);
+        weigh_blend(bodies, iteration, given, reached, work);
     }
-    let Workspace { bodies: all, newton, blend, motion, contacts, .. } = work;
+    let Iterating { bodies: all, newton, blend, motion, contacts, .. } = work;
     let all = (PerBody(all), PerNode(&mut newton.residual));
     each_body(given.assembly, bodies, all, &|i, (body, residual)| {
-        let guess = given.guess(i, motion, &next.displacement);
+        let guess = given.guess(i, motion, reached);
         body.own().residual(&guess, is_blended.then_some(blend.weight[i]), residual.0);
     });
     contacts.on_masses.add_known(bodies, given, &blend.weight, &mut newton.residual);
@@ -41,10 +40,10 @@ fn weigh_blend<const D: usize>(
     bodies: &[usize],
     iteration: usize,
     given: &Given<'_, D>,
-    next: &State<D>,
-    work: &mut Workspace<D>,
+    reached: &[Vector<D>],
+    work: &mut Iterating<D>,
 ) {
-    let Workspace { bodies: all, contacts, blend, motion, .. } = work;
+    let Iterating { bodies: all, contacts, blend, motion, .. } = work;
     let each = (PerBody(&mut all[..]), PerBody(&mut blend.balances));
     let touched = bodies.iter().any(|&i| contacts.active.touched[i]);
     let outlook = match (iteration, touched) {
@@ -53,7 +52,7 @@ fn weigh_blend<const D: usize>(
         (_, true) => Outlook::Pressed,
     };
     each_body(given.assembly, bodies, each, &|i, (body, balance)| {
-        *balance.own() = body.own().balance(&given.guess(i, motion, &next.displacement), outlook);
+        *balance.own() = body.own().balance(&given.guess(i, motion, reached), outlook);
     });
     contacts.on_masses.weigh(bodies, given, motion, all.as_slice(), &mut blend.balances);
     if iteration > CONTROL.weighed {
@@ -71,7 +70,7 @@ pub(super) fn begin_solves<const D: usize>(
     bodies: &[usize],
     given: &Given<'_, D>,
     reacts: bool,
-    work: &mut Workspace<D>,
+    work: &mut Iterating<D>,
 ) {
     let residual = &mut work.newton.residual;
     if reacts {
@@ -90,9 +89,9 @@ pub(super) fn begin_solves<const D: usize>(
 pub(super) fn end_solves<const D: usize>(
     bodies: &[usize],
     given: &Given<'_, D>,
-    work: &mut Workspace<D>,
+    work: &mut Iterating<D>,
 ) -> Result<(), StepError> {
-    let Workspace { bodies: all, newton: Newton { correction, .. }, .. } = work;
+    let Iterating { bodies: all, newton: Newton { correction, .. }, .. } = work;
     try_each_body(given.assembly, bodies, (PerBody(all), PerNode(correction)), &|_, (body, correction)| {
         body.own().end_solve(correction.0);
         // The largest size does not see what is not a number.
@@ -104,11 +103,11 @@ pub(super) fn end_solves<const D: usize>(
 pub(super) fn correct<const D: usize>(
     bodies: &[usize],
     given: &Given<'_, D>,
-    next: &mut State<D>,
-    work: &mut Workspace<D>,
+    reached: &mut [Vector<D>],
+    work: &mut Iterating<D>,
 ) {
-    let Workspace { newton: Newton { correction, progress, .. }, motion, .. } = work;
-    let all = (PerNode(motion), PerNode(&mut next.displacement), PerBody(progress));
+    let Iterating { newton: Newton { correction, progress, .. }, motion, .. } = work;
+    let all = (PerNode(motion), PerNode(reached), PerBody(progress));
     each_body(given.assembly, bodies, all, &|i, (motion, moved, progress)| {
         let nodes = given.assembly.nodes(i);
         let correction = &correction[nodes.clone()];

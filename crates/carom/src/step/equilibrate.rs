@@ -5,17 +5,16 @@ use carom_mesh::{Vector, nodal};
 
 use super::correction::{begin_solves, correct, end_solves, residuals};
 use super::hold::{driven_least, left_alone, not_held};
+use super::iterating::Iterating;
 use super::newton::control::LOAD_STEP;
 use super::newton::holding::Holding;
 use super::newton::load_step::{LoadStep, Verdict};
 use super::stability::{self, about_to_give_way, is_in_question};
-use super::workspace::Workspace;
 use crate::body::{Body, Guess, Tangent};
 use crate::contact::stiffened::{OfReactions, Stiffened};
 use crate::contact::{Accuracy, Contacts};
 use crate::error::StepError;
 use crate::model::given::Given;
-use crate::model::state::State;
 
 /// Iterates for some `bodies` until they are in equilibrium, all that are in contact or one that is not, and returns how often.
 ///
@@ -24,18 +23,18 @@ use crate::model::state::State;
 pub(super) fn equilibrate<const D: usize>(
     bodies: &[usize],
     given: &Given<'_, D>,
-    next: &mut State<D>,
-    work: &mut Workspace<D>,
+    reached: &mut [Vector<D>],
+    work: &mut Iterating<D>,
 ) -> Result<usize, StepError> {
-    match approach(bodies, given.method.newton.max_iterations, given, next, work) {
+    match approach(bodies, given.method.newton.max_iterations, given, reached, work) {
         Ok(iterations) => {
             let is_in_question = bodies.iter().any(|&i| is_in_question(i, work));
             if is_in_question {
-                stability::check(bodies, given, next, work)?;
+                stability::check(bodies, given, reached, work)?;
             }
             let are_in_question = work.contacts.are_in_question(bodies);
             if is_in_question || are_in_question {
-                linearise(bodies, given, next, work)?;
+                linearise(bodies, given, reached, work)?;
             }
             if are_in_question {
                 stability::check_together(given, work)?;
@@ -43,7 +42,7 @@ pub(super) fn equilibrate<const D: usize>(
             Ok(iterations)
         }
         Err(error @ (StepError::Newton { .. } | StepError::Runaway { .. })) => {
-            if let Some((not_held, is_caught)) = not_held(bodies, given, next, work) {
+            if let Some((not_held, is_caught)) = not_held(bodies, given, reached, work) {
                 work.newton.caught = is_caught.then_some(error);
                 return Err(not_held);
             }
@@ -71,18 +70,18 @@ pub(super) fn go_on<const D: usize>(
     bodies: &[usize],
     made: usize,
     given: &Given<'_, D>,
-    next: &mut State<D>,
-    work: &mut Workspace<D>,
+    reached: &mut [Vector<D>],
+    work: &mut Iterating<D>,
 ) -> Result<usize, StepError> {
-    let Workspace { contacts, newton, motion, bodies: all, .. } = work;
+    let Iterating { contacts, newton, motion, bodies: all, .. } = work;
     contacts.soften(bodies);
     bodies.iter().for_each(|&i| newton.holding[i] = Holding::default());
     if bodies.iter().any(|&i| contacts.active.touched[i]) {
         contacts.evaluate(given, motion, None, bodies, all);
     }
-    linearise(bodies, given, next, work)?;
+    linearise(bodies, given, reached, work)?;
     let allowed = given.method.newton.max_iterations - made;
-    Ok(made + approach(bodies, allowed, given, next, work)?)
+    Ok(made + approach(bodies, allowed, given, reached, work)?)
 }
 
 /// [`equilibrate`] in no more iterations than are `allowed`, with whatever error comes first.
@@ -90,23 +89,23 @@ fn approach<const D: usize>(
     bodies: &[usize],
     allowed: usize,
     given: &Given<'_, D>,
-    next: &mut State<D>,
-    work: &mut Workspace<D>,
+    reached: &mut [Vector<D>],
+    work: &mut Iterating<D>,
 ) -> Result<usize, StepError> {
     let rule = &given.method.newton;
     let (is_static, is_load_step) = (given.interval.map.is_static(), given.interval.is_load_step);
     // What a step in time moves is what its books are about.
     let entered = if is_load_step { &given.state.displacement[..given.assembly.node_count()] } else { &[] };
-    let reached = nodal::largest(entered);
+    let farthest = nodal::largest(entered);
     let worth = bodies.iter().map(|&i| work.bodies[i].tangent_worth()).max().unwrap_or(1);
-    let mut load_step = LoadStep::new(rule.tolerance, allowed, worth, reached);
+    let mut load_step = LoadStep::new(rule.tolerance, allowed, worth, farthest);
     work.newton.keep_guess(bodies, given.assembly, &work.motion, &work.contacts.active);
     work.newton.left_alone.clear();
     for iteration in 1.. {
         let late = (iteration > LOAD_STEP.late).then_some(load_step.last);
         let moved = bodies.iter().map(|&i| nodal::largest(&work.motion[given.assembly.nodes(i)]));
         let motion = moved.fold(0.0, f64::max);
-        let solved = solve(bodies, late, given, next, work);
+        let solved = solve(bodies, late, given, reached, work);
         let (correction, left, reason) = match solved {
             Ok(left) => {
                 work.newton.leave_out();
@@ -127,16 +126,16 @@ fn approach<const D: usize>(
                 work.contacts.reduced.delassus.stiffened.of_reactions = OfReactions::None;
             }
             work.newton.return_to_guess(bodies, given.assembly, &mut work.motion, &mut work.contacts.active);
-            follow(bodies, given, next, work);
+            follow(bodies, given, reached, work);
             bodies.iter().for_each(|&i| work.newton.holding[i].raise());
-            linearise(bodies, given, next, work)?;
+            linearise(bodies, given, reached, work)?;
             continue;
         }
         work.newton.keep_guess(bodies, given.assembly, &work.motion, &work.contacts.active);
-        correct(bodies, given, next, work);
+        correct(bodies, given, reached, work);
         if verdict == Verdict::Last {
             if !work.newton.left_alone.is_empty() {
-                work.newton.free_motion = driven_least(bodies, given, next, work)?;
+                work.newton.free_motion = driven_least(bodies, given, reached, work)?;
             }
             return Ok(iteration);
         }
@@ -146,7 +145,7 @@ fn approach<const D: usize>(
         }
         if is_static
             && load_step.has_stalled()
-            && let Some(motion) = left_alone(bodies, given, next, work)
+            && let Some(motion) = left_alone(bodies, given, reached, work)
         {
             // No iteration comes to an end in what nothing resists. What is left out is small where inertia resists it.
             bodies.iter().for_each(|&i| work.newton.holding[i].raise_to(LOAD_STEP.left_alone));
@@ -166,7 +165,7 @@ fn approach<const D: usize>(
             if load_step.is_shrinking() {
                 bodies.iter().for_each(|&i| work.newton.holding[i].lower());
             }
-            linearise(bodies, given, next, work)?;
+            linearise(bodies, given, reached, work)?;
         }
     }
     unreachable!("the loop ends at max_iterations")
@@ -178,20 +177,20 @@ fn solve<const D: usize>(
     bodies: &[usize],
     late: Option<f64>,
     given: &Given<'_, D>,
-    next: &mut State<D>,
-    work: &mut Workspace<D>,
+    reached: &mut [Vector<D>],
+    work: &mut Iterating<D>,
 ) -> Result<f64, StepError> {
     let touched = bodies.iter().any(|&i| work.contacts.active.touched[i]);
     if touched {
         work.contacts.evaluate(given, &work.motion, late, bodies, &mut work.bodies);
     }
-    residuals(bodies, 1, given, next, work);
+    residuals(bodies, 1, given, reached, work);
     let reacts = touched && work.contacts.react(given.assembly);
     if bodies.iter().any(|&i| !nodal::is_finite(&work.newton.residual[given.assembly.nodes(i)])) {
         return Err(StepError::NotFinite("internal force"));
     }
     if reacts {
-        let Workspace { contacts, motion, bodies, newton, .. } = work;
+        let Iterating { contacts, motion, bodies, newton, .. } = work;
         contacts.stiffen(given, motion, bodies, &mut newton.residual);
     }
     begin_solves(bodies, given, reacts, work);
@@ -207,12 +206,12 @@ fn solve<const D: usize>(
 pub(super) fn follow<const D: usize>(
     bodies: &[usize],
     given: &Given<'_, D>,
-    next: &mut State<D>,
-    work: &mut Workspace<D>,
+    reached: &mut [Vector<D>],
+    work: &mut Iterating<D>,
 ) {
     for nodes in bodies.iter().map(|&i| given.assembly.nodes(i)) {
         let from = [&given.state.displacement[nodes.clone()], &work.motion[nodes.clone()]];
-        nodal::each(&mut next.displacement[nodes], from, |u1, [u0, d]| *u1 = u0 + d);
+        nodal::each(&mut reached[nodes], from, |u1, [u0, d]| *u1 = u0 + d);
     }
 }
 
@@ -220,17 +219,17 @@ pub(super) fn follow<const D: usize>(
 fn linearise<const D: usize>(
     bodies: &[usize],
     given: &Given<'_, D>,
-    next: &State<D>,
-    work: &mut Workspace<D>,
+    reached: &[Vector<D>],
+    work: &mut Iterating<D>,
 ) -> Result<(), StepError> {
-    let Workspace { bodies: all, contacts, motion, .. } = work;
+    let Iterating { bodies: all, contacts, motion, .. } = work;
     let Contacts { active, reduced, .. } = contacts;
-    reduced.delassus.stiffened.spring_from_guess(given.assembly, &next.displacement, active, all);
+    reduced.delassus.stiffened.spring_from_guess(given.assembly, reached, active, all);
     if given.interval.map.is_static() {
         reduced.expect_more(all);
     }
     for &i in bodies {
-        let guess = given.guess(i, motion, &next.displacement);
+        let guess = given.guess(i, motion, reached);
         let holding = &mut work.newton.holding[i];
         let stiffened = &mut reduced.delassus.stiffened;
         let held = hold(&mut *all[i], &guess, false, holding, (stiffened, i));
@@ -242,9 +241,9 @@ fn linearise<const D: usize>(
 /// Makes the tangents at the start of a load step, and lets the bodies follow what is prescribed of them.
 pub(super) fn set_out<const D: usize>(
     given: &Given<'_, D>,
-    work: &mut Workspace<D>,
+    work: &mut Iterating<D>,
 ) -> Result<(), StepError> {
-    let Workspace { bodies, contacts, newton, motion, .. } = work;
+    let Iterating { bodies, contacts, newton, motion, .. } = work;
     contacts.reduced.expect_those_of(given.state, given.assembly, bodies);
     let stiffened = &mut contacts.reduced.delassus.stiffened;
     stiffened.let_go(&given.assembly.everyone);
@@ -319,7 +318,7 @@ fn hold<const D: usize>(
 }
 
 /// What round-off leaves of the motion [m]. Where that is much, the tangent is as good as singular, and says nothing of it.
-fn round_off<const D: usize>(bodies: &[usize], given: &Given<'_, D>, work: &Workspace<D>) -> f64 {
+fn round_off<const D: usize>(bodies: &[usize], given: &Given<'_, D>, work: &Iterating<D>) -> f64 {
     let of_bodies = bodies.iter().map(|&i| work.bodies[i].round_off());
     of_bodies.fold(given.assembly.round_off(), f64::max).min(LOAD_STEP.trusted * given.assembly.size)
 }

@@ -6,12 +6,11 @@ use carom_mesh::{Vector, nodal};
 use nalgebra::{DMatrix, DVector};
 
 use super::free_motion::FreeMotion;
+use super::iterating::Iterating;
 use super::newton::left_alone::{leave_out, normalise};
-use super::workspace::Workspace;
 use crate::contact::stiffened::held_directions;
 use crate::error::StepError;
 use crate::model::given::Given;
-use crate::model::state::State;
 
 /// A rigid motion is free if supports and contacts see no more of it than this, relative to the body.
 const FREE: f64 = 1e-6;
@@ -43,9 +42,9 @@ struct Motions<'a, const D: usize> {
 }
 
 impl<'a, const D: usize> Motions<'a, D> {
-    fn of(bodies: &'a [usize], given: &Given<'_, D>, next: &State<D>, work: &Workspace<D>) -> Self {
+    fn of(bodies: &'a [usize], given: &Given<'_, D>, reached: &[Vector<D>], work: &Iterating<D>) -> Self {
         let assembly = given.assembly;
-        let place = |n: usize| assembly.reference[n] + next.displacement[n];
+        let place = |n: usize| assembly.reference[n] + reached[n];
         let centre = |nodes: std::ops::Range<usize>| {
             let count = nodes.len() as f64;
             nodes.map(place).sum::<Vector<D>>() / count
@@ -65,7 +64,7 @@ impl<'a, const D: usize> Motions<'a, D> {
     fn row(
         &self,
         given: &Given<'_, D>,
-        next: &State<D>,
+        reached: &[Vector<D>],
         direction: &Vector<D>,
         stencil: impl Iterator<Item = (usize, f64)>,
     ) -> DVector<f64> {
@@ -73,7 +72,7 @@ impl<'a, const D: usize> Motions<'a, D> {
         for (node, weight) in stencil {
             let Some(body) = given.assembly.body_of(node) else { continue };
             let Some(place) = self.bodies.iter().position(|&i| i == body) else { continue };
-            let arm = given.assembly.reference[node] + next.displacement[node] - self.centres[place];
+            let arm = given.assembly.reference[node] + reached[node] - self.centres[place];
             for (c, &(_, motion)) in self.columns.iter().enumerate().filter(|(_, (k, _))| *k == place) {
                 row[c] += weight * direction.dot(&rigid_motion(motion, &arm, self.size));
             }
@@ -82,12 +81,12 @@ impl<'a, const D: usize> Motions<'a, D> {
     }
 
     /// A motion of all nodes that is made of so much of every rigid motion.
-    fn field(&self, shares: &DVector<f64>, given: &Given<'_, D>, next: &State<D>) -> Vec<Vector<D>> {
+    fn field(&self, shares: &DVector<f64>, given: &Given<'_, D>, reached: &[Vector<D>]) -> Vec<Vector<D>> {
         let assembly = given.assembly;
         let mut field = vec![Vector::zeros(); assembly.node_count()];
         for (&(place, motion), share) in self.columns.iter().zip(shares.iter()) {
             for node in assembly.nodes(self.bodies[place]) {
-                let arm = assembly.reference[node] + next.displacement[node] - self.centres[place];
+                let arm = assembly.reference[node] + reached[node] - self.centres[place];
                 field[node] += rigid_motion(motion, &arm, self.size) * *share;
             }
         }
@@ -100,7 +99,7 @@ fn resisted<'a, const D: usize>(
     motions: &Motions<'_, D>,
     holding: impl Iterator<Item = (&'a Contact<D>, usize)>,
     given: &Given<'_, D>,
-    next: &State<D>,
+    reached: &[Vector<D>],
 ) -> DMatrix<f64> {
     let assembly = given.assembly;
     let count = motions.columns.len();
@@ -109,19 +108,19 @@ fn resisted<'a, const D: usize>(
     for node in motions.bodies.iter().flat_map(|&i| assembly.nodes(i)) {
         for component in (0..D).filter(|&c| assembly.held(node)[c]) {
             let axis = Vector::from_fn(|i, _| if i == component { 1.0 } else { 0.0 });
-            resist(motions.row(given, next, &axis, std::iter::once((node, 1.0))));
+            resist(motions.row(given, reached, &axis, std::iter::once((node, 1.0))));
         }
     }
     for (contact, directions) in holding {
         for axis in 0..directions {
             let direction: Vector<D> = contact.frame.row(axis).transpose();
-            resist(motions.row(given, next, &direction, contact.stencil()));
+            resist(motions.row(given, reached, &direction, contact.stencil()));
         }
     }
     for spring in &assembly.springs {
-        for direction in spring.held_directions(&next.displacement) {
+        for direction in spring.held_directions(reached) {
             let stencil = spring.stencil.iter().map(|&(n, weight)| (n as usize, weight));
-            resist(motions.row(given, next, &direction, stencil));
+            resist(motions.row(given, reached, &direction, stencil));
         }
     }
     resisted
@@ -155,11 +154,11 @@ impl<'a, const D: usize> FreeMotions<'a, D> {
         bodies: &'a [usize],
         seen: f64,
         given: &Given<'_, D>,
-        next: &State<D>,
-        work: &Workspace<D>,
+        reached: &[Vector<D>],
+        work: &Iterating<D>,
     ) -> Self {
         let assembly = given.assembly;
-        let motions = Motions::of(bodies, given, next, work);
+        let motions = Motions::of(bodies, given, reached, work);
         let count = motions.columns.len();
         let active = &work.contacts.active;
         let mut forces = work.newton.residual.clone();
@@ -174,13 +173,13 @@ impl<'a, const D: usize> FreeMotions<'a, D> {
             }
             holding.push((contact, directions));
         }
-        let modes = free(resisted(&motions, holding.into_iter(), given, next), seen);
+        let modes = free(resisted(&motions, holding.into_iter(), given, reached), seen);
         let mut all = DVector::zeros(count);
         let mut unbalanced = 0.0;
         for node in bodies.iter().flat_map(|&i| assembly.nodes(i)) {
             let force = assembly.free_part(node, &forces[node]);
             unbalanced += force.norm();
-            all += motions.row(given, next, &force, std::iter::once((node, 1.0)));
+            all += motions.row(given, reached, &force, std::iter::once((node, 1.0)));
         }
         Self {
             driving: modes.iter().fold(DVector::zeros(count), |sum, mode| sum + mode * mode.dot(&all)),
@@ -198,11 +197,11 @@ impl<'a, const D: usize> FreeMotions<'a, D> {
     }
 
     /// Whether contacts that are open now close where forces drive what is free: it falls on what will hold it.
-    fn is_caught(&self, given: &Given<'_, D>, next: &State<D>, work: &Workspace<D>) -> bool {
+    fn is_caught(&self, given: &Given<'_, D>, reached: &[Vector<D>], work: &Iterating<D>) -> bool {
         let least = CAUGHT * self.driving.norm();
         work.contacts.active.contacts.iter().any(|contact| {
             let normal: Vector<D> = contact.frame.row(0).transpose();
-            self.motions.row(given, next, &normal, contact.stencil()).dot(&self.driving) < -least
+            self.motions.row(given, reached, &normal, contact.stencil()).dot(&self.driving) < -least
         })
     }
 
@@ -235,11 +234,11 @@ impl<'a, const D: usize> FreeMotions<'a, D> {
     }
 
     /// Whether a motion of all nodes is one of these.
-    fn has(&self, motion: &[Vector<D>], given: &Given<'_, D>, next: &State<D>) -> bool {
+    fn has(&self, motion: &[Vector<D>], given: &Given<'_, D>, reached: &[Vector<D>]) -> bool {
         let mut rest = motion.to_vec();
         let mut known: Vec<Vec<Vector<D>>> = Vec::with_capacity(self.modes.len());
         for mode in &self.modes {
-            let mut field = self.motions.field(mode, given, next);
+            let mut field = self.motions.field(mode, given, reached);
             known.iter().for_each(|other| leave_out(other, &mut field));
             normalise(&mut field);
             leave_out(&field, &mut rest);
@@ -255,14 +254,14 @@ pub(super) fn neutral<'a, const D: usize>(
     body: usize,
     holding: impl Iterator<Item = (&'a Contact<D>, usize)>,
     given: &Given<'_, D>,
-    next: &State<D>,
-    work: &Workspace<D>,
+    reached: &[Vector<D>],
+    work: &Iterating<D>,
 ) -> Vec<Vec<Vector<D>>> {
     let bodies = [body];
-    let motions = Motions::of(&bodies, given, next, work);
-    let modes = free(resisted(&motions, holding, given, next), NEARLY_FREE);
+    let motions = Motions::of(&bodies, given, reached, work);
+    let modes = free(resisted(&motions, holding, given, reached), NEARLY_FREE);
     let nodes = given.assembly.nodes(body);
-    modes.iter().map(|mode| motions.field(mode, given, next)[nodes.clone()].to_vec()).collect()
+    modes.iter().map(|mode| motions.field(mode, given, reached)[nodes.clone()].to_vec()).collect()
 }
 
 /// The share of a motion of a `body`, squared, that is no rigid one.
@@ -270,16 +269,16 @@ pub(super) fn elastic_share<const D: usize>(
     body: usize,
     motion: &[Vector<D>],
     given: &Given<'_, D>,
-    next: &State<D>,
-    work: &Workspace<D>,
+    reached: &[Vector<D>],
+    work: &Iterating<D>,
 ) -> f64 {
     let bodies = [body];
-    let motions = Motions::of(&bodies, given, next, work);
+    let motions = Motions::of(&bodies, given, reached, work);
     let nodes = given.assembly.nodes(body);
     let (mut rest, mut known) = (motion.to_vec(), Vec::<Vec<Vector<D>>>::new());
     for k in 0..motions.columns.len() {
         let unit = DVector::from_fn(motions.columns.len(), |i, _| if i == k { 1.0 } else { 0.0 });
-        let mut field = motions.field(&unit, given, next)[nodes.clone()].to_vec();
+        let mut field = motions.field(&unit, given, reached)[nodes.clone()].to_vec();
         known.iter().for_each(|other| leave_out(other, &mut field));
         normalise(&mut field);
         leave_out(&field, &mut rest);
@@ -292,15 +291,15 @@ pub(super) fn elastic_share<const D: usize>(
 pub(super) fn left_alone<const D: usize>(
     bodies: &[usize],
     given: &Given<'_, D>,
-    next: &State<D>,
-    work: &Workspace<D>,
+    reached: &[Vector<D>],
+    work: &Iterating<D>,
 ) -> Option<Vec<Vector<D>>> {
-    let free = FreeMotions::of(bodies, NEARLY_FREE, given, next, work);
+    let free = FreeMotions::of(bodies, NEARLY_FREE, given, reached, work);
     let mut motion = vec![Vector::zeros(); given.assembly.node_count()];
     for nodes in bodies.iter().map(|&i| given.assembly.nodes(i)) {
         motion[nodes.clone()].copy_from_slice(&work.newton.correction[nodes]);
     }
-    if !free.is_nearly_at_rest() || !free.has(&motion, given, next) {
+    if !free.is_nearly_at_rest() || !free.has(&motion, given, reached) {
         return None;
     }
     normalise(&mut motion);
@@ -314,10 +313,10 @@ pub(super) fn left_alone<const D: usize>(
 pub(super) fn driven_least<const D: usize>(
     bodies: &[usize],
     given: &Given<'_, D>,
-    next: &State<D>,
-    work: &Workspace<D>,
+    reached: &[Vector<D>],
+    work: &Iterating<D>,
 ) -> Result<Option<FreeMotion>, StepError> {
-    let free = FreeMotions::of(bodies, NEARLY_FREE, given, next, work);
+    let free = FreeMotions::of(bodies, NEARLY_FREE, given, reached, work);
     let driven = free.driven();
     match driven {
         Some(found) if !free.is_nearly_at_rest() => Err(as_error(&found, given)),
@@ -330,12 +329,12 @@ pub(super) fn driven_least<const D: usize>(
 pub(super) fn not_held<const D: usize>(
     bodies: &[usize],
     given: &Given<'_, D>,
-    next: &State<D>,
-    work: &Workspace<D>,
+    reached: &[Vector<D>],
+    work: &Iterating<D>,
 ) -> Option<(StepError, bool)> {
-    let free = FreeMotions::of(bodies, FREE, given, next, work);
+    let free = FreeMotions::of(bodies, FREE, given, reached, work);
     let driven = free.driven()?;
-    Some((as_error(&driven, given), free.is_caught(given, next, work)))
+    Some((as_error(&driven, given), free.is_caught(given, reached, work)))
 }
 
 fn as_error<const D: usize>(found: &FreeMotion, given: &Given<'_, D>) -> StepError {

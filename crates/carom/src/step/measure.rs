@@ -3,6 +3,7 @@
 use carom_contact::{Penetration, Solid};
 use carom_mesh::nodal;
 
+use super::iterating::Iterating;
 use super::report::{Inside, PenetrationReport};
 use super::resting::Resting;
 use super::waking::wander;
@@ -23,7 +24,7 @@ pub(super) fn measure<const D: usize>(
     let Given { assembly, method, state, interval } = *given;
     let end = |n: u32| assembly.reference[n as usize] + next.displacement[n as usize];
     // Not where the state has them: outlines of reduced bodies may have been completed in between.
-    let Workspace { boundaries, motion, resting, .. } = work;
+    let Workspace { iterating: Iterating { motion, .. }, boundaries, resting, .. } = work;
     if resting.who.is_everything() {
         return Ok(PenetrationReport { depth: resting.depth(), worst: None });
     }

@@ -9,7 +9,9 @@ pub(crate) mod free_motion;
 pub(crate) mod giving_way;
 mod hold;
 pub(crate) mod impulse;
+mod island;
 mod iterate;
+pub(crate) mod iterating;
 pub(crate) mod landing;
 mod measure;
 pub(crate) mod newton;
@@ -18,6 +20,7 @@ mod repaying;
 pub(crate) mod report;
 pub(crate) mod resting;
 mod settling;
+mod side_by_side;
 mod since_look;
 mod springs;
 mod stability;
@@ -34,6 +37,7 @@ use self::commit::commit;
 use self::control::SEARCH;
 use self::equilibrate::set_out;
 use self::iterate::iterate;
+use self::iterating::Iterating;
 use self::measure::measure;
 use self::outlines::place_outlines;
 use self::report::{PenetrationReport, StepReport};
@@ -99,7 +103,7 @@ fn make_step<const D: usize>(
         let made = iterate(given, next, work);
         if made.is_err() {
             // A factor that was made on the way to nowhere would mislead the next attempt.
-            work.bodies.iter_mut().for_each(|body| body.forget());
+            work.iterating.bodies.iter_mut().for_each(|body| body.forget());
         }
         if let Err(StepError::NotHeld { .. } | StepError::Runaway { .. }) = made {
             if margin < assembly.size {
@@ -107,7 +111,7 @@ fn make_step<const D: usize>(
                 margin = assembly.size.max(predict(given, work)?);
                 continue;
             }
-            if let Some(error) = work.newton.caught.take() {
+            if let Some(error) = work.iterating.newton.caught.take() {
                 return Err(error);
             }
         }
@@ -119,15 +123,15 @@ fn make_step<const D: usize>(
         if let Some(penetration) = penetration? {
             let report = commit(given, next, work, iterations)?;
             if interval.map.is_static() {
-                check_jump(given, &report, work)?;
+                check_jump(given, &report, &mut work.iterating)?;
             }
             if wake(given, next, work) {
                 continue;
             }
-            let Workspace { bodies, contacts, resting, .. } = work;
+            let Workspace { iterating: Iterating { bodies, contacts, .. }, resting, .. } = work;
             resting.note(given, next, bodies, &contacts.finder.found);
-            let cross_check = cross_check(given, &work.contacts);
-            let travel = nodal::largest(&work.motion);
+            let cross_check = cross_check(given, &work.iterating.contacts);
+            let travel = nodal::largest(&work.iterating.motion);
             return Ok(StepReport { penetration, travel, cross_check, ..report });
         }
     }
@@ -141,7 +145,7 @@ fn find<const D: usize>(
     repetition: usize,
     work: &mut Workspace<D>,
 ) -> bool {
-    let Workspace { contacts, motion, resting, .. } = work;
+    let Workspace { iterating: Iterating { contacts, motion, .. }, resting, .. } = work;
     contacts.finder.find(given, &resting.who, motion, (margin, repetition), &mut contacts.active);
     resting.rouse_found(given, &contacts.active.candidates)
 }
@@ -153,14 +157,14 @@ fn looked_at<const D: usize>(
     repetition: usize,
     work: &mut Workspace<D>,
 ) -> Result<Option<PenetrationReport>, StepError> {
-    let Workspace { contacts, motion, resting, .. } = work;
+    let Workspace { iterating: Iterating { contacts, motion, .. }, resting, .. } = work;
     let Contacts { finder, active, .. } = contacts;
     let may_be_repeated = repetition + 1 < SEARCH.repetitions;
     if finder.missed_one(given, &resting.who, (motion, next), active, may_be_repeated) {
         return Ok(None);
     }
     let penetration = measure(given, next, work)?;
-    let Workspace { contacts, boundaries, .. } = work;
+    let Workspace { iterating: Iterating { contacts, .. }, boundaries, .. } = work;
     let is_left = repetition >= SEARCH.measured;
     Ok((is_left || !contacts.finder.missed_by(given, next, boundaries.witnesses())).then_some(penetration))
 }
@@ -170,7 +174,8 @@ fn looked_at<const D: usize>(
 fn predict<const D: usize>(given: &Given<'_, D>, work: &mut Workspace<D>) -> Result<f64, StepError> {
     let Given { assembly, state, interval, .. } = *given;
     let dt = interval.map.dt;
-    let Workspace { bodies, motion, forecasts, factorisations, resting, .. } = work;
+    let Workspace { iterating: Iterating { bodies, motion, factorisations, .. }, forecasts, resting, .. } =
+        work;
     let flight = if interval.map.is_static() { 0.0 } else { dt };
     nodal::each(motion, [&state.velocity], |d, [v]| *d = v * flight);
     let mut driven = given.move_obstacles(motion)?;
@@ -194,10 +199,10 @@ fn predict<const D: usize>(given: &Given<'_, D>, work: &mut Workspace<D>) -> Res
         *factorisations += u64::from(forecast.is_factorised);
     }
     if interval.map.is_static() {
-        set_out(given, work)?;
+        set_out(given, &mut work.iterating)?;
     }
     let drift = || {
-        let means = work.bodies.iter().enumerate().map(|(i, body)| {
+        let means = work.iterating.bodies.iter().enumerate().map(|(i, body)| {
             let velocity = &state.velocity[assembly.nodes(i)];
             body.mean_velocity(velocity).norm()
         });

@@ -4,6 +4,7 @@ use carom_contact::{Boundaries, Positions};
 use carom_mesh::Vector;
 
 use super::control::WAKING;
+use super::iterating::Iterating;
 use super::whereabouts::Whereabouts;
 use super::workspace::Workspace;
 use crate::body::Ball;
@@ -16,7 +17,7 @@ pub(super) fn place_outlines<const D: usize>(
     next: &mut State<D>,
     work: &mut Workspace<D>,
 ) {
-    let Workspace { bodies, motion, boundaries, whereabouts, .. } = work;
+    let Workspace { iterating: Iterating { bodies, motion, .. }, boundaries, whereabouts, .. } = work;
     let Whereabouts { balls, boxes, near } = whereabouts;
     let assembly = given.assembly;
     for (i, (body, balls)) in bodies.iter_mut().zip(&mut *balls).enumerate() {

@@ -5,6 +5,7 @@
 //! Then the velocities at the end of the step change, inside and by what is no rigid motion alone: v₊ + s w, w without momentum and angular
 //! momentum, the same s for all bodies of a group. That is w·M w (s + s²/2) of energy, and no other is changed.
 
+use super::iterating::Iterating;
 use super::report::StepReport;
 use super::workspace::Workspace;
 use crate::model::given::Given;
@@ -26,7 +27,7 @@ pub(super) fn repay<const D: usize>(
     if !given.interval.is_blended {
         return;
     }
-    let Workspace { bodies, blend, body_ledgers, resting, .. } = work;
+    let Workspace { iterating: Iterating { bodies, blend, .. }, body_ledgers, resting, .. } = work;
     let least = NEGLIGIBLE * next.energies.total();
     blend.share.fill(0.0);
     blend.vibration.fill(0.0);

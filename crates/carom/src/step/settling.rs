@@ -4,6 +4,7 @@ use carom_mesh::Vector;
 
 use super::control::IMPULSIVE;
 use super::impulse::{Group, Impulse, mass, sticks, tangential};
+use super::iterating::Iterating;
 use super::workspace::Workspace;
 use crate::body::Body;
 use crate::contact::Contacts;
@@ -22,7 +23,7 @@ use crate::model::state::State;
 /// energy: a step of steepest descent in every step in time.
 pub(super) fn settle<const D: usize>(given: &Given<'_, D>, new: &mut State<D>, work: &mut Workspace<D>) {
     let Given { method, interval, .. } = *given;
-    let Workspace { bodies, contacts, impulses, body_ledgers, .. } = work;
+    let Workspace { iterating: Iterating { bodies, contacts, .. }, impulses, body_ledgers, .. } = work;
     impulses.wanted.clear();
     stop(given, new, contacts, bodies, &mut impulses.wanted);
     let stops = !impulses.wanted.is_empty();

@@ -11,14 +11,14 @@ use nalgebra::DMatrix;
 
 use super::giving_way::GivingWay;
 use super::hold::{elastic_share, neutral};
+use super::iterating::Iterating;
 use super::report::StepReport;
-use super::workspace::Workspace;
 use crate::body::{Guess, SoftestMotion};
 use crate::contact::Contacts;
 use crate::contact::stiffened::{ground, ground_of_model};
 use crate::error::StepError;
 use crate::model::given::Given;
-use crate::model::state::{Reaction, State};
+use crate::model::state::Reaction;
 
 /// How much stiffer than κ contacts are where nothing but the motions that they do not see is looked at.
 const RIGID: f64 = 1e4;
@@ -65,18 +65,18 @@ fn softest<const D: usize>(
     at: &[Vector<D>],
     pressed: &[Pressed<'_, D>],
     given: &Given<'_, D>,
-    next: &State<D>,
-    work: &mut Workspace<D>,
+    reached: &[Vector<D>],
+    work: &mut Iterating<D>,
 ) -> Option<SoftestMotion<D>> {
     let assembly = given.assembly;
-    let neutral = neutral(body, holding(pressed), given, next, work);
+    let neutral = neutral(body, holding(pressed), given, reached, work);
     let mut springs = vec![Vec::new(); assembly.body_count()];
     ground(assembly, holding(pressed), RIGID, &mut work.bodies, &mut springs);
-    ground_of_model(assembly, &next.displacement, &mut work.bodies, &mut springs);
+    ground_of_model(assembly, reached, &mut work.bodies, &mut springs);
     let motion = &work.motion[assembly.nodes(body)];
     let guess = Guess { interval: given.interval, start: given.start(body), motion, displacement: at };
     let softest = work.bodies[body].softest_motion(&guess, &springs[body], &neutral)?;
-    let is_elastic = elastic_share(body, &softest.field, given, next, work) > RIGID_MOTION;
+    let is_elastic = elastic_share(body, &softest.field, given, reached, work) > RIGID_MOTION;
     is_elastic.then_some(softest)
 }
 
@@ -85,7 +85,7 @@ fn by_reactions<const D: usize>(
     body: usize,
     x: &[Vector<D>],
     given: &Given<'_, D>,
-    work: &Workspace<D>,
+    work: &Iterating<D>,
 ) -> f64 {
     let (assembly, active) = (given.assembly, &work.contacts.active);
     let nodes = assembly.nodes(body);
@@ -111,7 +111,7 @@ fn by_reactions<const D: usize>(
 }
 
 /// Whether a body may be in an equilibrium that is not stable although its iterations have ended: they were held back.
-pub(super) fn is_in_question<const D: usize>(body: usize, work: &Workspace<D>) -> bool {
+pub(super) fn is_in_question<const D: usize>(body: usize, work: &Iterating<D>) -> bool {
     let is_pressed = !work.contacts.reduced.delassus.stiffened.springs[body].is_empty();
     work.newton.holding[body].was_indefinite || is_pressed && work.bodies[body].hides_softness()
 }
@@ -123,8 +123,8 @@ pub(super) fn is_in_question<const D: usize>(body: usize, work: &Workspace<D>) -
 pub(super) fn check<const D: usize>(
     bodies: &[usize],
     given: &Given<'_, D>,
-    next: &State<D>,
-    work: &mut Workspace<D>,
+    reached: &[Vector<D>],
+    work: &mut Iterating<D>,
 ) -> Result<(), StepError> {
     for &i in bodies {
         if !is_in_question(i, work) {
@@ -135,8 +135,8 @@ pub(super) fn check<const D: usize>(
         let (reactions, friction) = (active.reactions.clone(), active.friction.clone());
         let pressed: Vec<_> =
             contacts.iter().zip(&reactions).zip(friction).map(|((c, r), mu)| (c, r, mu)).collect();
-        let at = &next.displacement[given.assembly.nodes(i)];
-        let Some(found) = softest(i, at, &pressed, given, next, work) else { continue };
+        let at = &reached[given.assembly.nodes(i)];
+        let Some(found) = softest(i, at, &pressed, given, reached, work) else { continue };
         let stiffness = found.stiffness + by_reactions(i, &found.field, given, work);
         if stiffness < -ROUND_OFF * found.inertia {
             let giving_way = GivingWay { body: i, motion: found.field };
@@ -155,9 +155,9 @@ pub(super) fn check<const D: usize>(
 /// [`StepError::Unstable`].
 pub(super) fn check_together<const D: usize>(
     given: &Given<'_, D>,
-    work: &mut Workspace<D>,
+    work: &mut Iterating<D>,
 ) -> Result<(), StepError> {
-    let Workspace { contacts, motion, bodies, newton, .. } = work;
+    let Iterating { contacts, motion, bodies, newton, .. } = work;
     contacts.evaluate(given, motion, None, &given.assembly.everyone, bodies);
     let before = contacts.reduced.delassus.stiffened.of_reactions;
     if !contacts.take_stiffness_of_reactions() {
@@ -182,7 +182,7 @@ pub(super) fn check_together<const D: usize>(
 pub(super) fn check_jump<const D: usize>(
     given: &Given<'_, D>,
     report: &StepReport,
-    work: &Workspace<D>,
+    work: &Iterating<D>,
 ) -> Result<(), StepError> {
     let mut in_question = work.newton.holding.iter().map(|holding| holding.was_indefinite);
     let Some(body) = in_question.position(|was_indefinite| was_indefinite) else { return Ok(()) };
@@ -199,7 +199,7 @@ pub(super) fn check_jump<const D: usize>(
 
 /// What it says of a load step that its contact problem was not solved: one whose W is indefinite, with springs where contacts hold, may have several
 /// solutions or none. Bodies that hold one another may give way there, which is not proven. Names the body of the contact that moves most.
-pub(super) fn indefinite<const D: usize>(given: &Given<'_, D>, work: &Workspace<D>) -> Option<StepError> {
+pub(super) fn indefinite<const D: usize>(given: &Given<'_, D>, work: &Iterating<D>) -> Option<StepError> {
     let problem = work.posed_problem()?.problem;
     let count = problem.q.len();
     if count > MANY {
@@ -232,7 +232,7 @@ pub(super) fn indefinite<const D: usize>(given: &Given<'_, D>, work: &Workspace<
 pub(super) fn about_to_give_way<const D: usize>(
     bodies: &[usize],
     given: &Given<'_, D>,
-    work: &mut Workspace<D>,
+    work: &mut Iterating<D>,
 ) -> Option<StepError> {
     let state = given.state;
     let in_cones: Vec<_> = state.reactions.iter().map(Reaction::in_cone).collect();
@@ -247,8 +247,10 @@ pub(super) fn about_to_give_way<const D: usize>(
         let nodes = given.assembly.nodes(i);
         let undeformed = vec![Vector::zeros(); nodes.len()];
         let at = &state.displacement[nodes];
-        let Some(now) = softest(i, at, &pressed, given, state, work) else { continue };
-        let Some(first) = softest(i, &undeformed, &pressed, given, state, work) else { continue };
+        let Some(now) = softest(i, at, &pressed, given, &state.displacement, work) else { continue };
+        let Some(first) = softest(i, &undeformed, &pressed, given, &state.displacement, work) else {
+            continue;
+        };
         if now.resistance() <= NEAR * first.resistance() {
             let giving_way = GivingWay { body: i, motion: now.field };
             let error = giving_way.error(given);

@@ -3,6 +3,7 @@
 use carom_mesh::{Matrix, Vector, tensor};
 
 use super::control::WAKING;
+use super::iterating::Iterating;
 use super::workspace::Workspace;
 use crate::model::each_body::{PerBody, each_body};
 use crate::model::given::Given;
@@ -10,7 +11,7 @@ use crate::model::state::State;
 
 /// Takes note of how far nodes of boundaries wander in the step, and which bodies may have gone through themselves since they were looked at.
 pub(super) fn wander<const D: usize>(given: &Given<'_, D>, next: &State<D>, work: &mut Workspace<D>) {
-    let Workspace { bodies, motion, since_look, boundaries, resting, .. } = work;
+    let Workspace { iterating: Iterating { bodies, motion, .. }, since_look, boundaries, resting, .. } = work;
     for i in resting.resting() {
         (since_look[i].in_step, since_look[i].is_due) = (0.0, false);
     }
@@ -33,7 +34,9 @@ pub(super) fn wander<const D: usize>(given: &Given<'_, D>, next: &State<D>, work
 /// Wakes the bodies that have come near themselves and lets those sleep that have not. Returns whether one was found inside itself that nobody
 /// had searched.
 pub(super) fn wake<const D: usize>(given: &Given<'_, D>, next: &State<D>, work: &mut Workspace<D>) -> bool {
-    let Workspace { bodies, since_look, in_itself, boundaries, contacts, .. } = work;
+    let Workspace {
+        iterating: Iterating { bodies, contacts, .. }, since_look, in_itself, boundaries, ..
+    } = work;
     let end = |n: u32| given.assembly.reference[n as usize] + next.displacement[n as usize];
     let mut is_surprise = false;
     for (i, look) in since_look.iter_mut().enumerate() {

@@ -3,16 +3,16 @@ use std::time::Duration;
 use carom_contact::{Boundaries, Pair};
 use carom_mesh::Vector;
 
-use super::blend::Blend;
 use super::impulse::Impulses;
-use super::newton::Newton;
+use super::iterating::Iterating;
 use super::report::PairReport;
 use super::resting::Resting;
+use super::side_by_side::SideBySide;
 use super::since_look::SinceLook;
 use super::springs::SpringBooks;
 use super::whereabouts::Whereabouts;
 use crate::body::{Body, Forecast};
-use crate::contact::{Contacts, PosedProblem};
+use crate::contact::PosedProblem;
 use crate::ledger::{BodyLedger, ByPair};
 use crate::model::Model;
 use crate::model::assembly::Assembly;
@@ -21,10 +21,8 @@ use crate::model::method::Method;
 /// Scratch of a step: the bodies with their factors, contacts, iterations. It holds no result and may be dropped at any moment; a run that is
 /// to go on to the last bit keeps what its [`crate::Checkpoint`] has of it.
 pub struct Workspace<const D: usize> {
-    pub(crate) bodies: Vec<Box<dyn Body<D>>>,
-    pub(crate) contacts: Contacts<D>,
-    pub(crate) newton: Newton<D>,
-    pub(crate) blend: Blend,
+    pub(crate) iterating: Iterating<D>,
+    pub(crate) side_by_side: SideBySide<D>,
     pub(crate) impulses: Impulses<D>,
     pub(crate) springs: SpringBooks<D>,
     pub(crate) boundaries: Boundaries<D>,
@@ -36,16 +34,12 @@ pub struct Workspace<const D: usize> {
     pub(crate) in_itself: Vec<bool>,
     /// What every body expected of the step.
     pub(crate) forecasts: Vec<Forecast>,
-    /// d = u₊ − u [m] of all nodes and obstacles.
-    pub(crate) motion: Vec<Vector<D>>,
     /// What pairs did in the last step, those of which anything is known.
     pub pair_reports: ByPair<PairReport>,
     /// What contacts of pairs with mass took in the last step, if it was blended [J].
     pub(crate) booked: Vec<(Pair, f64)>,
     /// What happened to the energy of each body in the last step.
     pub body_ledgers: Vec<BodyLedger>,
-    /// Factorisations made so far.
-    pub factorisations: u64,
     /// Time spent so far in search of contacts and in measures of what is inside what.
     pub detection_time: Duration,
 }
@@ -61,9 +55,6 @@ impl<const D: usize> Workspace<D> {
     #[must_use]
     pub fn with_bodies(assembly: &Assembly<D>, bodies: Vec<Box<dyn Body<D>>>) -> Self {
         Self {
-            contacts: Contacts::new(assembly),
-            newton: Newton::new(assembly),
-            blend: Blend::new(bodies.len()),
             impulses: Impulses::new(assembly.reference.len(), bodies.len()),
             springs: SpringBooks::new(assembly),
             boundaries: assembly.boundaries.clone(),
@@ -72,13 +63,12 @@ impl<const D: usize> Workspace<D> {
             since_look: vec![SinceLook::default(); bodies.len()],
             in_itself: vec![false; bodies.len()],
             forecasts: vec![Forecast::default(); bodies.len()],
-            motion: vec![Vector::zeros(); assembly.reference.len()],
             pair_reports: ByPair::default(),
             booked: Vec::new(),
             body_ledgers: vec![BodyLedger::default(); bodies.len()],
-            factorisations: 0,
             detection_time: Duration::ZERO,
-            bodies,
+            side_by_side: SideBySide::default(),
+            iterating: Iterating::new(assembly, bodies),
         }
     }
 
@@ -90,48 +80,52 @@ impl<const D: usize> Workspace<D> {
 
     /// The same with what `before` has counted.
     pub(crate) fn counting_on(mut self, before: &Self) -> Self {
-        self.factorisations = before.factorisations;
+        self.iterating.factorisations = before.iterating.factorisations;
         self.detection_time = before.detection_time;
-        self.contacts.reduced.friction_time = before.friction_time();
+        self.iterating.contacts.reduced.friction_time = before.friction_time();
         self
     }
 
     /// The blend α of start and end stresses of every body in the last step.
     #[must_use]
     pub fn blend_weights(&self) -> &[f64] {
-        &self.blend.weight
+        &self.iterating.blend.weight
     }
 
     /// What every body took on of its vibration at the end of the last step, as a share of it: what the blend left over.
     #[must_use]
     pub fn vibration_shares(&self) -> &[f64] {
-        &self.blend.share
+        &self.iterating.blend.share
     }
 
     /// The forces [N] of the impulses that were given at the end of the last step, one of each kind for each of its so many `reactions`: those
     /// that restore what landing took, and those that settle contacts at rest. They are part of the reactions.
     #[must_use]
     pub fn impulse_forces(&self, reactions: usize) -> [Vec<Vector<D>>; 2] {
-        self.impulses.forces(reactions, &self.contacts.at_end)
+        self.impulses.forces(reactions, &self.iterating.contacts.at_end)
     }
 
     /// Memory of the factors of all bodies [bytes].
     #[must_use]
     pub fn factor_bytes(&self) -> usize {
-        self.bodies.iter().map(|body| body.factor_bytes()).sum()
+        self.iterating.bodies.iter().map(|body| body.factor_bytes()).sum()
+    }
+
+    /// Factorisations made so far.
+    #[must_use]
+    pub fn factorisations(&self) -> u64 {
+        self.iterating.factorisations
     }
 
     /// Time spent in the friction solver so far.
     #[must_use]
     pub fn friction_time(&self) -> Duration {
-        self.contacts.reduced.friction_time
+        self.iterating.contacts.reduced.friction_time
     }
 
     /// The last contact problem that a step posed, solved or not; after [`crate::StepError::Friction`] the one that failed.
     #[must_use]
     pub fn posed_problem(&self) -> Option<PosedProblem<'_, D>> {
-        let reduced = &self.contacts.reduced;
-        let (problem, guess) = (&reduced.problem, &reduced.guess[..]);
-        (!problem.is_empty()).then_some(PosedProblem { problem, guess })
+        self.iterating.posed_problem()
     }
 }

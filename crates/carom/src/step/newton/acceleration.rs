@@ -12,7 +12,6 @@ use super::control::CONTROL;
 use super::convergence::BodyProgress;
 use crate::model::each_body::{PerNode, each_body};
 use crate::model::given::Given;
-use crate::model::state::State;
 
 /// Differences combined.
 const DEPTH: usize = 3;
@@ -168,11 +167,11 @@ impl<const D: usize> Acceleration<D> {
         touched: &[bool],
         given: &Given<'_, D>,
         motion: &mut [Vector<D>],
-        next: &mut State<D>,
+        reached: &mut [Vector<D>],
     ) {
         let mut together = Products::default();
         bodies.iter().filter(|&&i| touched[i]).for_each(|&i| together.add(&self.bodies[i].products));
-        let all = (PerNode(motion), PerNode(&mut next.displacement));
+        let all = (PerNode(motion), PerNode(reached));
         each_body(given.assembly, bodies, all, &|i, (motion, moved)| {
             let nodes = given.assembly.nodes(i);
             let record = &self.bodies[i];
