@@ -12,7 +12,8 @@ use crate::{
 ///
 /// A few accelerated Gauss–Seidel sweeps solve well-conditioned problems and improve the start of others. They go on while they promise
 /// to end soon. Of many contacts, from a good start, a few of Newton's iterations come next: what is left over is which of the contacts
-/// stick, slip and are open, and sweeps carry that through a pile one contact at a time. Else sweeps go on while they are a small part of
+/// stick, slip and are open, and sweeps carry that through a pile one contact at a time. Where a few do not do, those on the natural map set out from the
+/// start again: from where sweeps have led they take longer. Else sweeps go on while they are a small part of
 /// what Newton's method would cost. Contacts that are densely coupled have full factors and make sweeps slow. There ADMM, which needs one
 /// factor, is tried instead, unless the contacts answer mostly to their own reactions. It forgets its start: from a good one a few of
 /// Newton's iterations come first there, too.
@@ -81,6 +82,7 @@ fn is_local<const D: usize>(problem: &ContactProblem<D>) -> bool {
 
 fn run<const D: usize>(monitor: &mut Monitor<'_, D>, r: &mut [Vector<D>]) -> (SolverKind, SolveStatus) {
     let problem = monitor.problem();
+    let start = r.to_vec();
     let sweep = |monitor: &mut Monitor<'_, D>, r: &mut [Vector<D>], sweeps| {
         gauss_seidel::run::<D, Enumerative>(monitor, r, sweeps)
             .map(|status| (SolverKind::GaussSeidelEnumerative, status))
@@ -116,6 +118,17 @@ fn run<const D: usize>(monitor: &mut Monitor<'_, D>, r: &mut [Vector<D>]) -> (So
         let status = Strategy::NEWTON.run(monitor, &mut newton, r, CONTROL.from_good_start);
         if status != SolveStatus::IterationLimit {
             return (SolverKind::NewtonAlartCurnier, status);
+        }
+        if !dense {
+            r.copy_from_slice(&start);
+            // The residual is that of the start, to which what is tried is relative.
+            if let Some(status) = monitor.check(r) {
+                return (SolverKind::NewtonNaturalMap, status);
+            }
+            let status = Strategy::PILE.run(monitor, &mut newton, r, CONTROL.turn.0);
+            if !matches!(status, SolveStatus::IterationLimit | SolveStatus::Stalled) {
+                return (SolverKind::NewtonNaturalMap, status);
+            }
         }
     }
     if are_slow {

@@ -39,7 +39,8 @@ impl<const D: usize> FrictionSolver<D> for NewtonAlartCurnier {
 
 impl<const D: usize> FrictionSolver<D> for NewtonNaturalMap {
     fn solve(&self, problem: &ContactProblem<D>, r: &mut [Vector<D>], rule: &StoppingRule) -> SolveReport {
-        let strategy = Strategy { equations: &[Equation::NaturalMap], first_shift: CONTROL.nearly_none };
+        let equations = &[Equation::NaturalMap];
+        let strategy = Strategy { equations, first_shift: CONTROL.nearly_none, step: 1.0 };
         strategy.solve(SolverKind::NewtonNaturalMap, problem, r, rule)
     }
 }
@@ -65,6 +66,9 @@ struct Control {
     slow: f64,
     /// ‖φ‖ that is small enough in a step, relative to the residual before it.
     inner: f64,
+    /// The step ρ in piles, relative to 1/λ_max(W_ii). There a contact answers to many others, and by a short step Newton's method guesses better which
+    /// of them slip. Measured on the problems of a pile of 1,000 discs: with 1 it takes 1.5 times the iterations.
+    short: f64,
 }
 
 /// The thresholds of every run.
@@ -78,6 +82,7 @@ const CONTROL: Control = Control {
     caution: 2,
     slow: 0.7,
     inner: 1e-2,
+    short: 0.1,
 };
 
 /// How the method is run.
@@ -87,12 +92,20 @@ pub(crate) struct Strategy {
     equations: &'static [Equation],
     /// Relative to the mean compliance.
     first_shift: f64,
+    /// ρ of the equations, relative to 1/λ_max(W_ii).
+    step: f64,
 }
 
 impl Strategy {
-    pub const NEWTON: Self = Self { equations: &[Equation::AlartCurnier], first_shift: CONTROL.nearly_none };
-    pub const PROXIMAL: Self =
-        Self { equations: &[Equation::NaturalMap, Equation::AlartCurnier], first_shift: CONTROL.safe };
+    pub const NEWTON: Self =
+        Self { equations: &[Equation::AlartCurnier], first_shift: CONTROL.nearly_none, step: 1.0 };
+    pub const PILE: Self =
+        Self { equations: &[Equation::NaturalMap], first_shift: CONTROL.nearly_none, step: CONTROL.short };
+    pub const PROXIMAL: Self = Self {
+        equations: &[Equation::NaturalMap, Equation::AlartCurnier],
+        first_shift: CONTROL.safe,
+        step: 1.0,
+    };
 
     fn solve<const D: usize>(
         self,
@@ -123,7 +136,8 @@ impl Strategy {
         max_iterations: usize,
     ) -> SolveStatus {
         let problem = monitor.problem();
-        let rho = problem.step_lengths();
+        let mut rho = problem.step_lengths();
+        rho.iter_mut().for_each(|rho| *rho *= self.step);
         let mean_compliance = 1.0 / monitor.stiffness();
         let motion_force = monitor.stiffness() * norm(&problem.q);
         let end = monitor.iterations.saturating_add(max_iterations);
