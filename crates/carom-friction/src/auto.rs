@@ -1,3 +1,5 @@
+use std::ops::RangeInclusive;
+
 use crate::block_lu::NoStructure;
 use crate::local::Enumerative;
 use crate::newton::Newton;
@@ -10,7 +12,9 @@ use crate::{
 
 /// Starts cheaply and escalates where that does not converge; the default.
 ///
-/// A few accelerated Gauss–Seidel sweeps solve well-conditioned problems and improve the start of others. They go on while they promise
+/// Of many contacts that answer mostly to their own reactions, Uzawa's iteration, on all of them at once, takes more iterations than sweeps do, but less time.
+///
+/// Elsewhere a few accelerated Gauss–Seidel sweeps solve well-conditioned problems and improve the start of others. They go on while they promise
 /// to end soon. Of many contacts, from a good start, a few of Newton's iterations come next: what is left over is which of the contacts
 /// stick, slip and are open, and sweeps carry that through a pile one contact at a time. Where a few do not do, those on the natural map set out from the
 /// start again: from where sweeps have led they take longer. Else sweeps go on while they are a small part of
@@ -25,8 +29,16 @@ use crate::{
 pub struct Auto;
 
 /// What is tried for how long.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 struct Control {
+    /// Contacts from which the iteration on all at once comes before sweeps, if they are local and have so many blocks each. Its cost is products with W, that
+    /// of sweeps what is solved contact by contact. With fewer blocks contacts are those of piles, where it leads nowhere. Measured in space: with 5,041
+    /// contacts of a block on a floor, 47 or 51 blocks each, it takes 0.6 of the time, with 441 of 41 nine tenths, and five quarters with 441 that all feel one
+    /// another.
+    many: usize,
+    blocks_of_each: RangeInclusive<usize>,
+    /// Iterations that it is given.
+    at_once: usize,
     /// Sweeps before anything else is considered: about the cost of ordering the contacts for Newton's method.
     first_sweeps: usize,
     /// Sweeps that those already made may promise to end within.
@@ -52,6 +64,9 @@ struct Control {
 
 /// The thresholds of every run.
 const CONTROL: Control = Control {
+    many: 400,
+    blocks_of_each: 40..=100,
+    at_once: 60,
     first_sweeps: 10,
     promised_sweeps: 60.0,
     dense: 12,
@@ -90,6 +105,12 @@ fn run<const D: usize>(monitor: &mut Monitor<'_, D>, r: &mut [Vector<D>]) -> (So
     let blocks = problem.w.block_count();
     let local = is_local(problem);
     let dense = blocks > CONTROL.dense * problem.len() && !local;
+    if local && problem.len() >= CONTROL.many && CONTROL.blocks_of_each.contains(&(blocks / problem.len())) {
+        match uzawa::run(monitor, r, CONTROL.at_once) {
+            Some(SolveStatus::Diverged | SolveStatus::Stalled) | None => r.copy_from_slice(&start),
+            Some(status) => return (SolverKind::Uzawa, status),
+        }
+    }
     let first = if dense {
         monitor.check(r).map(|status| (SolverKind::Admm, status))
     } else {
@@ -181,5 +202,33 @@ mod tests {
         assert_eq!(report.solver, SolverKind::NewtonAlartCurnier);
         let most = 2 * CONTROL.first_sweeps + CONTROL.from_good_start;
         assert!(report.iterations <= most, "{} iterations", report.iterations);
+    }
+
+    /// A long row of contacts, each of which feels those near it, pressed and pushed along.
+    #[test]
+    fn many_local_contacts_are_solved_at_once_with_the_same_bits_by_any_number_of_threads() {
+        let (n, reach) = (1600_usize, 22);
+        let mut w = BlockMatrix::<3>::default();
+        for i in 0..n {
+            let block = |j: usize| Matrix::identity() * 0.6_f64.powi(i.abs_diff(j) as i32);
+            w.push_row((i.saturating_sub(reach)..(i + reach + 1).min(n)).map(|j| (j, block(j))));
+        }
+        let push =
+            |i: usize| Vector::<3>::new(-1.0, 0.4 * (0.01 * i as f64).sin(), 0.1 * (0.02 * i as f64).cos());
+        let problem = ContactProblem { w, q: (0..n).map(push).collect(), mu: vec![0.3; n] };
+        let solve = |threads| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
+            let mut r = vec![Vector::zeros(); n];
+            let report = pool.install(|| {
+                assert_eq!(problem.w.is_shared(), threads > 1);
+                Auto.solve(&problem, &mut r, &StoppingRule::default())
+            });
+            assert!(report.is_solved() && report.solver == SolverKind::Uzawa, "{report:?}");
+            (report.measure, r)
+        };
+        let one = solve(1);
+        assert!(one.1.iter().any(|r| r[1] > 0.29 * r[0]) && one.1.iter().any(|r| r[1].abs() < 0.2 * r[0]));
+        assert_eq!(solve(2), one);
+        assert_eq!(solve(3), one);
     }
 }

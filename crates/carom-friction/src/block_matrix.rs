@@ -1,4 +1,10 @@
+use rayon::prelude::*;
+
 use crate::{Matrix, Vector};
+
+/// Blocks from which threads share a product, and rows that one takes at least: a product of so many blocks takes longer than to wake another thread.
+const MANY: usize = 1 << 16;
+const ROWS: usize = 256;
 
 /// A square sparse matrix of D × D blocks, row by row; a dense one is the special case with every block stored.
 #[derive(Debug, Clone, PartialEq)]
@@ -128,6 +134,27 @@ impl<const D: usize> BlockMatrix<D> {
                 next[j] += 1;
             }
         }
+    }
+
+    /// Writes what `made` makes of every row times `x` to `out`. Threads share the rows where there are many blocks; every number is made by one of them, by the
+    /// same operations whatever their count.
+    pub(crate) fn each_row_times(
+        &self,
+        x: &[Vector<D>],
+        out: &mut [Vector<D>],
+        made: impl Fn(usize, Vector<D>) -> Vector<D> + Sync,
+    ) {
+        let write = |(i, out): (usize, &mut Vector<D>)| *out = made(i, self.row_times(i, x));
+        if self.is_shared() {
+            out.par_iter_mut().enumerate().with_min_len(ROWS).for_each(write);
+        } else {
+            out.iter_mut().enumerate().for_each(write);
+        }
+    }
+
+    /// Whether threads share products with it.
+    pub(crate) fn is_shared(&self) -> bool {
+        self.blocks.len() >= MANY && rayon::current_num_threads() > 1
     }
 
     /// Row `i` without its diagonal block, times `x`.

@@ -71,7 +71,12 @@ impl<const D: usize> Measured<D> for ContactProblem<D> {
     }
 
     fn measure(&self, meter: &Meter, r: &[Vector<D>]) -> Measure {
-        meter.measure(&self.mu, r, |i| self.motion(i, r))
+        if !self.w.is_shared() {
+            return meter.measure(&self.mu, r, |i| self.motion(i, r));
+        }
+        let mut motions = vec![Vector::zeros(); r.len()];
+        self.w.each_row_times(r, &mut motions, |i, moved| self.q[i] + moved);
+        meter.measure(&self.mu, r, |i| motions[i])
     }
 }
 

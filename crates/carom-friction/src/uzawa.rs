@@ -115,10 +115,11 @@ pub(crate) fn run<const D: usize>(
 
 /// F_i = w_i + μ|w_t| n of all contacts.
 fn motions<const D: usize>(problem: &ContactProblem<D>, r: &[Vector<D>], force: &mut [Vector<D>]) {
-    for (i, f) in force.iter_mut().enumerate() {
-        *f = problem.motion(i, r);
-        f[0] += problem.mu[i] * cone::tangential_norm(f);
-    }
+    problem.w.each_row_times(r, force, |i, moved| {
+        let mut f = problem.q[i] + moved;
+        f[0] += problem.mu[i] * cone::tangential_norm(&f);
+        f
+    });
 }
 
 /// Products of a step Δr and the change ΔF along it, weighted with ρ_i so that all are in the same unit.
