@@ -6,20 +6,17 @@ use super::{Body, BodyEnd, BodyState, Forecast, Guess, Interval, Jolt};
 use crate::error::StepError;
 use crate::ledger::{BodyLedger, Energies};
 
-/// A body that is elsewhere: nobody asks it for anything.
+/// A body that is elsewhere. Nobody asks it for anything: who iterates has lists of the bodies that it has.
 #[derive(Debug)]
 pub(crate) struct Lent;
 
-/// Why nothing of it is asked for.
-const ELSEWHERE: &str = "a body is asked for where it is";
-
 impl<const D: usize> Body<D> for Lent {
     fn measure(&self, _: &BodyState<'_, D>, _: &mut [Vector<D>]) -> Energies {
-        unreachable!("{ELSEWHERE}")
+        unreachable!()
     }
 
     fn mean_velocity(&self, _: &[Vector<D>]) -> Vector<D> {
-        unreachable!("{ELSEWHERE}")
+        unreachable!()
     }
 
     fn begin_step(
@@ -28,47 +25,47 @@ impl<const D: usize> Body<D> for Lent {
         _: &BodyState<'_, D>,
         _: &mut [Vector<D>],
     ) -> Result<Forecast, StepError> {
-        unreachable!("{ELSEWHERE}")
+        unreachable!()
     }
 
     fn residual(&mut self, _: &Guess<'_, D>, _: Option<f64>, _: &mut [Vector<D>]) {
-        unreachable!("{ELSEWHERE}")
+        unreachable!()
     }
 
     fn begin_solve(&mut self, _: &[Vector<D>]) {
-        unreachable!("{ELSEWHERE}")
+        unreachable!()
     }
 
     fn set_reach(&mut self, _: &[u32]) {
-        unreachable!("{ELSEWHERE}")
+        unreachable!()
     }
 
     fn partial_solve(&mut self, _: &[u32], _: &mut [Vector<D>]) {
-        unreachable!("{ELSEWHERE}")
+        unreachable!()
     }
 
     fn add_forces(&mut self, _: &[u32], _: &[Vector<D>]) {
-        unreachable!("{ELSEWHERE}")
+        unreachable!()
     }
 
     fn end_solve(&mut self, _: &mut [Vector<D>]) {
-        unreachable!("{ELSEWHERE}")
+        unreachable!()
     }
 
     fn renew(&mut self, _: &Guess<'_, D>, _: bool) -> Result<(), StepError> {
-        unreachable!("{ELSEWHERE}")
+        unreachable!()
     }
 
     fn forget(&mut self) {
-        unreachable!("{ELSEWHERE}")
+        unreachable!()
     }
 
     fn end_step(&mut self, _: &Guess<'_, D>, _: Option<f64>, _: BodyEnd<'_, D>) -> (BodyLedger, Energies) {
-        unreachable!("{ELSEWHERE}")
+        unreachable!()
     }
 
     fn mass_of(&self, _: u32) -> f64 {
-        unreachable!("{ELSEWHERE}")
+        unreachable!()
     }
 
     fn jolt(
@@ -78,18 +75,18 @@ impl<const D: usize> Body<D> for Lent {
         _: &mut [Vector<D>],
         _: &mut [Vector<D>],
     ) -> Jolt {
-        unreachable!("{ELSEWHERE}")
+        unreachable!()
     }
 
     fn generation(&self) -> u64 {
-        unreachable!("{ELSEWHERE}")
+        unreachable!()
     }
 
     fn respond(&mut self, _: &[u32]) {
-        unreachable!("{ELSEWHERE}")
+        unreachable!()
     }
 
     fn response(&self, _: u32, _: u32, _: usize) -> Matrix<D> {
-        unreachable!("{ELSEWHERE}")
+        unreachable!()
     }
 }

@@ -123,7 +123,7 @@ fn make_step<const D: usize>(
         if let Some(penetration) = penetration? {
             let report = commit(given, next, work, iterations)?;
             if interval.map.is_static() {
-                check_jump(given, &report, &mut work.iterating)?;
+                check_jump(given, &report, &work.iterating)?;
             }
             if wake(given, next, work) {
                 continue;
