@@ -36,6 +36,7 @@ struct Control {
     /// contacts of a block on a floor, 47 or 51 blocks each, it takes 0.6 of the time, with 441 of 41 nine tenths, and five quarters with 441 that all feel one
     /// another.
     many: usize,
+    /// See `many`.
     blocks_of_each: RangeInclusive<usize>,
     /// Iterations that it is given.
     at_once: usize,
@@ -50,6 +51,8 @@ struct Control {
     /// A residual below which a start is a good one, and the factors that Newton's iterations may take from there: they take one to four.
     good_start: f64,
     from_good_start: usize,
+    /// The same of piles where these do not do, from the guess that was given.
+    from_start: usize,
     /// Contacts from which sweeps take long to carry what is left over from one end to the other.
     pile: usize,
     /// Iterations of ADMM, with one factor or two, that are tried before Newton's method renews its factors again and again.
@@ -73,6 +76,7 @@ const CONTROL: Control = Control {
     local: 4.0,
     good_start: 0.1,
     from_good_start: 6,
+    from_start: 1000,
     pile: 200,
     directions: 60,
     sweeps_worth: 5,
@@ -97,7 +101,6 @@ fn is_local<const D: usize>(problem: &ContactProblem<D>) -> bool {
 
 fn run<const D: usize>(monitor: &mut Monitor<'_, D>, r: &mut [Vector<D>]) -> (SolverKind, SolveStatus) {
     let problem = monitor.problem();
-    let start = r.to_vec();
     let sweep = |monitor: &mut Monitor<'_, D>, r: &mut [Vector<D>], sweeps| {
         gauss_seidel::run::<D, Enumerative>(monitor, r, sweeps)
             .map(|status| (SolverKind::GaussSeidelEnumerative, status))
@@ -105,7 +108,11 @@ fn run<const D: usize>(monitor: &mut Monitor<'_, D>, r: &mut [Vector<D>]) -> (So
     let blocks = problem.w.block_count();
     let local = is_local(problem);
     let dense = blocks > CONTROL.dense * problem.len() && !local;
-    if local && problem.len() >= CONTROL.many && CONTROL.blocks_of_each.contains(&(blocks / problem.len())) {
+    let is_surface =
+        local && problem.len() >= CONTROL.many && CONTROL.blocks_of_each.contains(&(blocks / problem.len()));
+    let is_pile = !dense && problem.len() >= CONTROL.pile;
+    let start = if is_surface || is_pile { r.to_vec() } else { Vec::new() };
+    if is_surface {
         match uzawa::run(monitor, r, CONTROL.at_once) {
             Some(SolveStatus::Diverged | SolveStatus::Stalled) | None => r.copy_from_slice(&start),
             Some(status) => return (SolverKind::Uzawa, status),
@@ -118,6 +125,10 @@ fn run<const D: usize>(monitor: &mut Monitor<'_, D>, r: &mut [Vector<D>]) -> (So
     };
     if let Some(end) = first {
         return end;
+    }
+    if is_surface && let Some(status) = monitor.check(r) {
+        // After so many iterations sweeps are measured seldom.
+        return (SolverKind::GaussSeidelEnumerative, status);
     }
     while local && monitor.expected_iterations() < CONTROL.promised_sweeps {
         if let Some(end) = sweep(monitor, r, CONTROL.first_sweeps) {
@@ -140,13 +151,16 @@ fn run<const D: usize>(monitor: &mut Monitor<'_, D>, r: &mut [Vector<D>]) -> (So
         if status != SolveStatus::IterationLimit {
             return (SolverKind::NewtonAlartCurnier, status);
         }
-        if !dense {
+        if let Some(status) = monitor.exhausted() {
+            return (SolverKind::NewtonAlartCurnier, status);
+        }
+        if is_pile {
             r.copy_from_slice(&start);
             // The residual is that of the start, to which what is tried is relative.
             if let Some(status) = monitor.check(r) {
                 return (SolverKind::NewtonNaturalMap, status);
             }
-            let status = Strategy::PILE.run(monitor, &mut newton, r, CONTROL.turn.0);
+            let status = Strategy::PILE.run(monitor, &mut newton, r, CONTROL.from_start);
             if !matches!(status, SolveStatus::IterationLimit | SolveStatus::Stalled) {
                 return (SolverKind::NewtonNaturalMap, status);
             }

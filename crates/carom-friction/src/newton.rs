@@ -10,7 +10,7 @@ use crate::{ContactProblem, Matrix, Vector};
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Shifted<'a, const D: usize> {
     pub problem: &'a ContactProblem<D>,
-    /// 1/λ_max(W_ii) of every contact [N/m].
+    /// ρ of every contact [N/m]: 1/λ_max(W_ii), or a part of it.
     pub rho: &'a [f64],
     /// Compliance added to every contact [m/N].
     pub shift: f64,
@@ -22,7 +22,7 @@ impl<const D: usize> Shifted<'_, D> {
         self.problem.motion(i, r) + (r[i] - self.centre[i]) * self.shift
     }
 
-    /// 1/λ_max(W_ii + shift).
+    /// ρ where the shift is added to the compliance.
     fn rho(&self, i: usize) -> f64 {
         if self.rho[i] > 0.0 { self.rho[i] / (1.0 + self.rho[i] * self.shift) } else { 1.0 / self.shift }
     }

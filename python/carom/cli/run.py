@@ -53,7 +53,7 @@ def run(
     threads: Annotated[
         int | None,
         typer.Option(
-            metavar="N", min=1, help="Threads that share large bodies; default all cores."
+            metavar="N", min=1, help="Threads that share the work; default all cores."
         ),
     ] = None,
     engine: Annotated[

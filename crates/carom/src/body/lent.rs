@@ -1,8 +1,8 @@
-//! What stands in the place of a body that another workspace has.
+//! What stands in the place of a body while another thread iterates it.
 
 use carom_mesh::{Matrix, Vector};
 
-use super::{Body, BodyEnd, BodyState, Forecast, Guess, Interval, Jolt};
+use super::{Balance, Body, BodyEnd, BodyState, Forecast, Guess, Interval, Jolt, Outlook};
 use crate::error::StepError;
 use crate::ledger::{BodyLedger, Energies};
 
@@ -10,13 +10,17 @@ use crate::ledger::{BodyLedger, Energies};
 #[derive(Debug)]
 pub(crate) struct Lent;
 
+fn elsewhere() -> ! {
+    unreachable!("a body is asked for where it is")
+}
+
 impl<const D: usize> Body<D> for Lent {
     fn measure(&self, _: &BodyState<'_, D>, _: &mut [Vector<D>]) -> Energies {
-        unreachable!()
+        elsewhere()
     }
 
     fn mean_velocity(&self, _: &[Vector<D>]) -> Vector<D> {
-        unreachable!()
+        elsewhere()
     }
 
     fn begin_step(
@@ -25,47 +29,71 @@ impl<const D: usize> Body<D> for Lent {
         _: &BodyState<'_, D>,
         _: &mut [Vector<D>],
     ) -> Result<Forecast, StepError> {
-        unreachable!()
+        elsewhere()
     }
 
     fn residual(&mut self, _: &Guess<'_, D>, _: Option<f64>, _: &mut [Vector<D>]) {
-        unreachable!()
+        elsewhere()
     }
 
     fn begin_solve(&mut self, _: &[Vector<D>]) {
-        unreachable!()
+        elsewhere()
     }
 
     fn set_reach(&mut self, _: &[u32]) {
-        unreachable!()
+        elsewhere()
     }
 
     fn partial_solve(&mut self, _: &[u32], _: &mut [Vector<D>]) {
-        unreachable!()
+        elsewhere()
     }
 
     fn add_forces(&mut self, _: &[u32], _: &[Vector<D>]) {
-        unreachable!()
+        elsewhere()
     }
 
     fn end_solve(&mut self, _: &mut [Vector<D>]) {
-        unreachable!()
+        elsewhere()
+    }
+
+    fn balance(&mut self, _: &Guess<'_, D>, _: Outlook) -> Balance {
+        elsewhere()
+    }
+
+    fn velocity_half_way(&self, _: u32, _: &Vector<D>) -> Vector<D> {
+        elsewhere()
+    }
+
+    fn round_off(&self) -> f64 {
+        elsewhere()
+    }
+
+    fn tangent_worth(&self) -> i32 {
+        elsewhere()
+    }
+
+    fn turn(&self) -> Matrix<D> {
+        elsewhere()
+    }
+
+    fn near(&self, _: u32) -> Option<Vec<u32>> {
+        elsewhere()
     }
 
     fn renew(&mut self, _: &Guess<'_, D>, _: bool) -> Result<(), StepError> {
-        unreachable!()
+        elsewhere()
     }
 
     fn forget(&mut self) {
-        unreachable!()
+        elsewhere()
     }
 
     fn end_step(&mut self, _: &Guess<'_, D>, _: Option<f64>, _: BodyEnd<'_, D>) -> (BodyLedger, Energies) {
-        unreachable!()
+        elsewhere()
     }
 
     fn mass_of(&self, _: u32) -> f64 {
-        unreachable!()
+        elsewhere()
     }
 
     fn jolt(
@@ -75,18 +103,18 @@ impl<const D: usize> Body<D> for Lent {
         _: &mut [Vector<D>],
         _: &mut [Vector<D>],
     ) -> Jolt {
-        unreachable!()
+        elsewhere()
     }
 
     fn generation(&self) -> u64 {
-        unreachable!()
+        elsewhere()
     }
 
     fn respond(&mut self, _: &[u32]) {
-        unreachable!()
+        elsewhere()
     }
 
     fn response(&self, _: u32, _: u32, _: usize) -> Matrix<D> {
-        unreachable!()
+        elsewhere()
     }
 }

@@ -101,7 +101,6 @@ impl<const D: usize> Contacts<D> {
     /// Hands islands of the step, and what is known of the compliance of `bodies`, over `to` other contacts.
     pub fn hand_over(&mut self, islands: &[usize], bodies: &[usize], to: &mut Self) {
         self.islands.hand_over(islands, &mut to.islands);
-        to.active.touched.clone_from(&self.active.touched);
         let [from, to] = [self, to].map(|contacts| &mut contacts.reduced.delassus.compliances);
         bodies.iter().for_each(|&i| std::mem::swap(&mut from[i], &mut to[i]));
     }

@@ -58,7 +58,7 @@ pub(crate) struct Reduced<const D: usize> {
     start: Vec<Vector<D>>,
     /// The solver that gave the last reactions.
     pub solved_by: SolverKind,
-    /// Time spent in the friction solver so far.
+    /// Time spent in the friction solver so far, by all threads together.
     pub friction_time: Duration,
     /// The nodes of every body that contacts act on, ascending, and the bodies of which they were listed; others have none.
     nodes: Vec<Vec<u32>>,

@@ -329,7 +329,7 @@ impl<const D: usize> Simulation<D> {
         self.work.detection_time
     }
 
-    /// Time spent in the friction solver so far.
+    /// Time spent in the friction solver so far, by all threads together.
     #[must_use]
     pub fn friction_time(&self) -> Duration {
         self.work.friction_time()

@@ -36,7 +36,7 @@ pub(super) fn iterate<const D: usize>(
     let solve: Solve<D> = if given.interval.map.is_static() { equilibrate } else { iterate_bodies };
     let islands = contacts.divide(given);
     let rests = &resting.who.bodies;
-    side_by_side.share(islands, |i| !contacts.active.touched[i] && !rests[i], contacts, given);
+    side_by_side.deal(islands, |i| !contacts.active.touched[i] && !rests[i], contacts, given);
     let made = side_by_side.iterate(solve, given, &mut next.displacement, iterating);
     let contacts = &mut iterating.contacts;
     match made {

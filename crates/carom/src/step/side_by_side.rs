@@ -14,7 +14,7 @@ use crate::error::StepError;
 use crate::model::assembly::Assembly;
 use crate::model::given::Given;
 
-/// A contact is about as much work as so many nodes.
+/// A contact is about as much work as so many nodes. It says who iterates what, and nothing else.
 const CONTACT: usize = 8;
 
 /// Who iterates what, and those that iterate aside.
@@ -25,7 +25,7 @@ pub(crate) struct SideBySide<const D: usize> {
     asides: Vec<Aside<D>>,
     islands: usize,
     /// How much work islands are, and bodies in none, whose numbers follow.
-    work: Vec<(usize, usize)>,
+    amounts: Vec<(usize, usize)>,
 }
 
 /// What one thread iterates: islands, and bodies that are in none, ascending.
@@ -33,7 +33,7 @@ pub(crate) struct SideBySide<const D: usize> {
 struct Share {
     islands: Vec<usize>,
     alone: Vec<usize>,
-    work: usize,
+    amount: usize,
 }
 
 /// Somebody else who iterates, with bodies that are lent.
@@ -49,8 +49,8 @@ struct Aside<const D: usize> {
 type Made = Result<usize, (usize, StepError)>;
 
 impl<const D: usize> SideBySide<D> {
-    /// Shares so many islands, and the bodies that are `alone`, among threads, where that is worth their while.
-    pub fn share(
+    /// Deals out so many islands, and the bodies that are `alone`, to as many threads as that is worth the while of.
+    pub fn deal(
         &mut self,
         islands: usize,
         alone: impl Fn(usize) -> bool,
@@ -63,33 +63,39 @@ impl<const D: usize> SideBySide<D> {
             let (bodies, contacts) = contacts.island(k);
             bodies.iter().map(|&i| nodes(i)).sum::<usize>() + CONTACT * contacts
         };
-        let Self { shares, work, .. } = self;
+        let Self { shares, amounts, .. } = self;
         self.islands = islands;
-        work.clear();
-        work.extend((0..islands).map(|k| (of_island(k), k)));
-        work.extend((0..assembly.body_count()).filter(|&i| alone(i)).map(|i| (nodes(i), islands + i)));
+        amounts.clear();
+        amounts.extend((0..islands).map(|k| (of_island(k), k)));
+        amounts.extend((0..assembly.body_count()).filter(|&i| alone(i)).map(|i| (nodes(i), islands + i)));
         // What contacts without mass do to bodies with it is summed in one place.
         let is_apart = !(assembly.is_mixed() && method.condition.is_massless());
-        let is_worth_it = has_threads() && work.iter().map(|(work, _)| work).sum::<usize>() > BODIES;
         let takes_time = !interval.map.is_static() && !interval.is_load_step;
-        let threads = if is_apart && is_worth_it && takes_time { thread_count().min(work.len()) } else { 1 };
+        // A smaller model is stepped from outside of the threads, each of which would have to be woken.
+        let is_large = has_threads() && assembly.node_count() >= BODIES;
+        let worth = amounts.iter().map(|(amount, _)| amount).sum::<usize>() / BODIES + 1;
+        let threads = if is_apart && takes_time && is_large {
+            thread_count().min(amounts.len()).min(worth).max(1)
+        } else {
+            1
+        };
         shares.resize_with(threads, Share::default);
         shares.iter_mut().for_each(Share::clear);
         if threads > 1 {
-            work.sort_unstable_by(|a, b| b.0.cmp(&a.0).then(a.1.cmp(&b.1)));
+            amounts.sort_unstable_by(|a, b| b.0.cmp(&a.0).then(a.1.cmp(&b.1)));
         }
-        for &(work, number) in &*work {
+        for &(amount, number) in &*amounts {
             // A single island is not taken out of the contacts of the step.
             let stays = islands == 1 && number == 0;
-            let least = (0..threads).min_by_key(|&k| shares[k].work).filter(|_| !stays).unwrap_or(0);
-            shares[least].work += work;
+            let least = (0..threads).min_by_key(|&k| shares[k].amount).filter(|_| !stays).unwrap_or(0);
+            shares[least].amount += amount;
             let Share { islands: touching, alone, .. } = &mut shares[least];
             if number < islands { touching.push(number) } else { alone.push(number - islands) }
         }
         shares.iter_mut().for_each(Share::sort);
     }
 
-    /// Iterates what was shared.
+    /// Iterates what was dealt out.
     pub fn iterate(
         &mut self,
         solve: Solve<D>,
@@ -119,19 +125,20 @@ impl<const D: usize> SideBySide<D> {
             asides.push(Aside::new(given.assembly));
         }
         for (aside, share) in asides.iter_mut().zip(&shares[1..]) {
-            let Aside { iterating: own, reached: own_reached, lent, .. } = aside;
+            let Aside { iterating: theirs, reached: reached_there, lent, .. } = aside;
             lent.clear();
             lent.extend(share.islands.iter().flat_map(|&k| iterating.contacts.island(k).0));
             lent.extend(&share.alone);
             let obstacles = given.assembly.node_count()..given.assembly.reference.len();
-            own.motion[obstacles.clone()].copy_from_slice(&iterating.motion[obstacles]);
-            for nodes in lent.iter().map(|&i| given.assembly.nodes(i)) {
-                own.motion[nodes.clone()].copy_from_slice(&iterating.motion[nodes.clone()]);
-                own_reached[nodes.clone()].copy_from_slice(&reached[nodes]);
+            let all = lent.iter().map(|&i| given.assembly.nodes(i)).chain(std::iter::once(obstacles));
+            for nodes in all {
+                theirs.motion[nodes.clone()].copy_from_slice(&iterating.motion[nodes.clone()]);
+                reached_there[nodes.clone()].copy_from_slice(&reached[nodes]);
             }
-            own.newton.begin(lent, given.assembly, &own.motion);
-            own.contacts.on_masses.begin(given);
-            hand_over(&share.islands, lent, iterating, own);
+            theirs.newton.begin(lent, given.assembly, &theirs.motion);
+            theirs.contacts.on_masses.begin(given);
+            theirs.contacts.active.touched.clone_from(&iterating.contacts.active.touched);
+            hand_over(&share.islands, lent, iterating, theirs);
         }
     }
 
@@ -145,18 +152,20 @@ impl<const D: usize> SideBySide<D> {
     ) -> Made {
         let Self { shares, asides, .. } = self;
         for (aside, share) in asides.iter_mut().zip(&shares[1..]) {
-            let Aside { iterating: own, reached: own_reached, lent, made: own_made } = aside;
-            hand_over(&share.islands, lent, own, iterating);
+            let Aside { iterating: theirs, reached: reached_there, lent, made: made_there } = aside;
+            hand_over(&share.islands, lent, theirs, iterating);
             for &i in &*lent {
                 let nodes = given.assembly.nodes(i);
-                iterating.motion[nodes.clone()].copy_from_slice(&own.motion[nodes.clone()]);
-                reached[nodes.clone()].copy_from_slice(&own_reached[nodes]);
-                iterating.blend.take(i, &own.blend);
+                iterating.motion[nodes.clone()].copy_from_slice(&theirs.motion[nodes.clone()]);
+                reached[nodes.clone()].copy_from_slice(&reached_there[nodes]);
+                if given.interval.is_blended {
+                    iterating.blend.take(i, &theirs.blend);
+                }
             }
-            iterating.factorisations += std::mem::take(&mut own.factorisations);
+            iterating.factorisations += std::mem::take(&mut theirs.factorisations);
             iterating.contacts.reduced.friction_time +=
-                std::mem::take(&mut own.contacts.reduced.friction_time);
-            made = match (made, std::mem::replace(own_made, Ok(0))) {
+                std::mem::take(&mut theirs.contacts.reduced.friction_time);
+            made = match (made, std::mem::replace(made_there, Ok(0))) {
                 (Ok(a), Ok(b)) => Ok(a.max(b)),
                 // That of one thread alone would have been the first.
                 (Err(a), Err(b)) => Err(if a.0 < b.0 { a } else { b }),
@@ -182,7 +191,7 @@ impl Share {
     fn clear(&mut self) {
         self.islands.clear();
         self.alone.clear();
-        self.work = 0;
+        self.amount = 0;
     }
 
     fn sort(&mut self) {

@@ -117,7 +117,7 @@ impl<const D: usize> Workspace<D> {
         self.iterating.factorisations
     }
 
-    /// Time spent in the friction solver so far.
+    /// Time spent in the friction solver so far, by all threads together.
     #[must_use]
     pub fn friction_time(&self) -> Duration {
         self.iterating.contacts.reduced.friction_time

@@ -1,4 +1,4 @@
-//! Threads share the work of large bodies without a trace in the results.
+//! Threads share the work of large bodies, and of many, without a trace in the results.
 
 use carom::Simulation;
 use serde_json::{Value, json};
@@ -37,6 +37,16 @@ fn many_islands(condition: &str, iterations: usize, halvings: usize) -> Value {
         bodies.push(body(&format!("alone{k}"), disc(x, 8.0, 8 + 2 * (k % 4)), [0.3, -speed]));
         bodies.push(body(&format!("b{k}"), disc(x + 2.02, 2.1, 14 - 2 * (k % 3)), [-speed, 0.0]));
     }
+    if condition != "massless" {
+        // Bodies of other kinds, in islands after some that fail.
+        let (rigid, reduced) = (3 * 6, 3 * 7 + 2);
+        let given = bodies[rigid].as_object_mut().expect("a body");
+        given
+            .retain(|key, _| ["name", "mesh", "velocity", "hypothesis", "thickness"].contains(&key.as_str()));
+        given.extend([("kind".into(), json!("rigid")), ("density".into(), json!(1.0))]);
+        bodies[reduced]["kind"] = json!("reduced");
+        bodies[reduced]["modes"] = json!(3);
+    }
     let mut case = scenario(0.02, 4e-3, &bodies, &[plane("floor", [0.0, 0.0], [0.0, 1.0])]);
     case["analysis"]["scheme"] = json!({"kind": "conserving"});
     case["analysis"]["newton"]["max_iterations"] = json!(iterations);
@@ -58,7 +68,15 @@ fn islands_side_by_side_come_to_what_one_thread_makes_of_them_also_where_some_fa
                 let mut simulation = Simulation::<2>::new(&parse(&case)).expect("a valid case");
                 let ended = simulation.advance(f64::INFINITY, || false).map_err(|error| error.to_string());
                 let summary = simulation.summary();
-                (ended.err(), simulation.state().clone(), summary.retried_steps, summary.contacts.len())
+                let posed =
+                    simulation.posed_problem().map(|posed| (posed.problem.clone(), posed.guess.to_vec()));
+                (
+                    ended.err(),
+                    simulation.state().clone(),
+                    summary.retried_steps,
+                    summary.contacts.len(),
+                    posed,
+                )
             })
         };
         let one = end(1, 8);

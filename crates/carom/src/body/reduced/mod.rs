@@ -212,6 +212,8 @@ impl<const D: usize> Body<D> for ReducedBody<D> {
         self.equation.begin(own, interval.map);
         self.moved.rigid = self.equation.rigid.driven();
         self.moved.stretch.fill(0.0);
+        // What an attempt at the step that failed has left is not that of this one.
+        self.is_solved = false;
         // Free flight is known to round-off before the first iteration.
         self.forces.restart(Wrench::default());
         self.equation.solve(own, &self.forces, &mut self.moved, &mut self.scratch);
