@@ -52,9 +52,7 @@ def run(
     ] = False,
     threads: Annotated[
         int | None,
-        typer.Option(
-            metavar="N", min=1, help="Threads that share the work; default all cores."
-        ),
+        typer.Option(metavar="N", min=1, help="Threads that share the work; default all cores."),
     ] = None,
     engine: Annotated[
         str | None,
