@@ -7,6 +7,7 @@
 mod content;
 mod lowest;
 mod reader;
+mod shapes;
 
 use carom_mesh::compiled;
 use carom_mesh::{Matrix, Vector};
@@ -16,6 +17,7 @@ pub use self::content::Content;
 use self::content::rigid_motions;
 use self::lowest::lowest_modes;
 use self::reader::Reader;
+use self::shapes::Shapes;
 use crate::sparse::{Factor, NodalMatrix, Precision};
 use crate::{Body, FemError, Held};
 
@@ -33,8 +35,7 @@ const ROWS: usize = 512;
 pub struct Reduction<const D: usize> {
     /// ω² [1/s²] of every vibration, ascending.
     stiffness: Vec<f64>,
-    /// The displacements of every node for an amplitude of one of every vibration [1/√kg], node after node.
-    shapes: Vec<Vector<D>>,
+    shapes: Shapes<D>,
     reader: Reader<D>,
 }
 
@@ -121,10 +122,7 @@ impl<const D: usize> Reduction<D> {
         let kept = body.surface().nodes();
         let reader = Reader::new(body, kept, &columns[D * kept.len()..], &shapes);
         let reader = reader.ok_or(FemError::NotPositiveDefinite)?;
-        let shapes = (0..body.node_count())
-            .flat_map(|n| (0..values.len()).map(move |k| (n, k)))
-            .map(|(n, k)| Vector::from_fn(|i, _| shapes[(n * D + i, k)]))
-            .collect();
+        let shapes = Shapes::new(values.len(), body.node_count(), |n, i, k| shapes[(n * D + i, k)]);
         Ok(Self { stiffness: values, shapes, reader })
     }
 
@@ -140,28 +138,34 @@ impl<const D: usize> Reduction<D> {
         self.stiffness.len()
     }
 
-    /// The displacements of a node for an amplitude of one of every vibration [1/√kg].
+    /// The displacements of a node along every axis for an amplitude of one of every vibration [1/√kg].
     #[inline]
     #[must_use]
-    pub fn shapes_at(&self, node: usize) -> &[Vector<D>] {
-        &self.shapes[node * self.count()..][..self.count()]
+    pub fn shapes_at(&self, node: usize) -> [&[f64]; D] {
+        self.shapes.at(node)
     }
 
     /// The displacement [m] of a node by these amplitudes [m √kg].
     #[inline]
     #[must_use]
     pub fn displacement(&self, node: usize, amplitudes: &[f64]) -> Vector<D> {
-        // Four sums at once: one would wait for itself.
-        let (mut sums, shapes) = ([Vector::<D>::zeros(); 4], self.shapes_at(node));
-        let (fours, of_fours) = (shapes.chunks_exact(4), amplitudes.chunks_exact(4));
-        let rest = fours.remainder().iter().zip(of_fours.remainder());
-        rest.for_each(|(shape, a)| sums[0] += shape * *a);
-        for (shapes, amplitudes) in fours.zip(of_fours) {
-            for k in 0..4 {
-                sums[k] += shapes[k] * amplitudes[k];
-            }
+        let [displacement] = self.shapes.displacements(node, [amplitudes]);
+        displacement
+    }
+
+    /// Those by several sets of amplitudes, for little more than one takes.
+    #[inline]
+    #[must_use]
+    pub fn displacements<const K: usize>(&self, node: usize, amplitudes: [&[f64]; K]) -> [Vector<D>; K] {
+        self.shapes.displacements(node, amplitudes)
+    }
+
+    /// Adds what a force [N] at a node is for the amplitudes, Φᵀ f.
+    #[inline]
+    pub fn add_force(&self, node: usize, force: &Vector<D>, out: &mut [f64]) {
+        for (shapes, f) in self.shapes_at(node).into_iter().zip(force) {
+            out.iter_mut().zip(shapes).for_each(|(out, shape)| *out += shape * f);
         }
-        (sums[0] + sums[1]) + (sums[2] + sums[3])
     }
 
     /// The nodes, ascending, whose displacements say everything.

@@ -88,7 +88,7 @@ pub(crate) fn start<const D: usize>(
     };
     state.time = time;
     cohesion::bond(&model.assembly, &mut state);
-    if state.is_finite() {
+    if state.is_finite(&model.assembly) {
         return Ok(state);
     }
     let message = "the initial energy is not finite; check velocities and material constants";

@@ -43,6 +43,8 @@ pub struct Member<const D: usize> {
     pub turns: bool,
     /// Its nodes on an axis of revolution.
     pub axis: Vec<u32>,
+    /// Its nodes, ascending, that iterations of a step move one by one, where others follow these; empty where all are.
+    pub stepped: Vec<u32>,
 }
 
 /// Bodies in their places and what may touch what: all that a step needs to know beside the bodies themselves.
@@ -88,6 +90,8 @@ pub struct Assembly<const D: usize> {
     turns: Vec<bool>,
     /// The numbers of the nodes of every body.
     nodes: Vec<Range<usize>>,
+    /// Those of them that iterations move, in runs.
+    stepped: Vec<Vec<Range<usize>>>,
     body_of_node: Vec<u32>,
     /// The nodes on an axis of revolution, ascending.
     on_axis: Vec<u32>,
@@ -130,6 +134,7 @@ impl<const D: usize> Assembly<D> {
             turns: members.iter().map(|m| m.turns).collect(),
             names: Vec::with_capacity(members.len()),
             nodes: Vec::with_capacity(members.len()),
+            stepped: members.iter().map(runs_of_stepped).collect(),
             body_of_node: Vec::with_capacity(count),
             on_axis: Vec::new(),
             held: Vec::with_capacity(count + obstacles),
@@ -233,6 +238,20 @@ impl<const D: usize> Assembly<D> {
     #[must_use]
     pub fn nodes(&self, index: usize) -> Range<usize> {
         self.nodes[index].clone()
+    }
+
+    /// The nodes of body `index` that iterations of a step move, in runs, as numbered in the body. All others follow them at the end of a step.
+    #[inline]
+    #[must_use]
+    pub fn stepped(&self, index: usize) -> &[Range<usize>] {
+        &self.stepped[index]
+    }
+
+    /// Such a run as numbered in the model.
+    #[inline]
+    pub(crate) fn numbered(&self, index: usize, run: &Range<usize>) -> Range<usize> {
+        let first = self.nodes[index].start;
+        first + run.start..first + run.end
     }
 
     /// The name of body `index`.
@@ -372,4 +391,13 @@ impl<const D: usize> Assembly<D> {
             Target::Obstacle(_) => self.diameters[pair.source],
         }
     }
+}
+
+/// The nodes that iterations move, as runs of neighbours.
+fn runs_of_stepped<const D: usize>(member: &Member<D>) -> Vec<Range<usize>> {
+    if member.stepped.is_empty() {
+        return std::iter::once(0..member.reference.len()).collect();
+    }
+    let runs = member.stepped.chunk_by(|a, b| a + 1 == *b);
+    runs.map(|run| run[0] as usize..run[run.len() - 1] as usize + 1).collect()
 }

@@ -4,7 +4,9 @@
 //! writes is its own, so the numbers are those of one thread to the last bit.
 
 use std::convert::Infallible;
+use std::ops::Range;
 
+use carom_mesh::Vector;
 use carom_mesh::parallel::{BODIES, both, has_threads};
 
 use crate::model::assembly::Assembly;
@@ -88,6 +90,21 @@ pub(crate) fn try_each_body<const D: usize, P: Cut, E: Send>(
     work: &(impl Fn(usize, P) -> Result<(), E> + Sync),
 ) -> Result<(), E> {
     share(assembly, bodies, all, [0, 0], work)
+}
+
+/// Calls `work` with every run of nodes that iterations move, of all bodies, and with the obstacles: what is of them in `out`, and their numbers.
+pub(crate) fn each_run<const D: usize>(
+    assembly: &Assembly<D>,
+    out: &mut [Vector<D>],
+    work: &(impl Fn(&mut [Vector<D>], Range<usize>) + Sync),
+) {
+    let (bodies, obstacles) = out.split_at_mut(assembly.node_count());
+    each_body(assembly, &assembly.everyone, PerNode(bodies), &|i, own| {
+        for run in assembly.stepped(i) {
+            work(&mut own.0[run.clone()], assembly.numbered(i, run));
+        }
+    });
+    work(obstacles, assembly.node_count()..assembly.reference.len());
 }
 
 /// [`each_body`] by one thread, of work that writes more than what belongs to a body.

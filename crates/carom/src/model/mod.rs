@@ -72,6 +72,7 @@ impl<const D: usize> Model<D> {
             is_massless: !b.body.massless().is_empty(),
             turns: b.body.turns(),
             axis: b.body.axis_nodes(),
+            stepped: b.reduced.as_ref().map_or_else(Vec::new, |reduced| reduced.moved.clone()),
         };
         let assembly = Assembly::new(bodies.iter().map(member).collect(), contact, obstacle_names);
         let surroundings = stiffness_of_deformable(&bodies);

@@ -221,20 +221,22 @@ impl<const D: usize> State<D> {
         }
     }
 
-    /// Whether every number is finite.
+    /// Whether every number is finite that steps of the `assembly` depend on.
     #[must_use]
-    pub fn is_finite(&self) -> bool {
-        let vectors = [
-            &self.displacement,
-            &self.velocity,
-            &self.internal_force,
-            &self.contact_force,
-            &self.support,
-            &self.anchor,
-        ];
-        let numbers = [&self.friction_energy, &self.slip, &self.energy_debt];
-        vectors.into_iter().all(|vectors| nodal::is_finite(vectors))
-            && numbers.into_iter().flatten().all(|x| x.is_finite())
+    pub fn is_finite(&self, assembly: &Assembly<D>) -> bool {
+        let of_nodes =
+            [&self.displacement, &self.velocity, &self.internal_force, &self.contact_force, &self.anchor];
+        let numbers = [&self.friction_energy, &self.slip];
+        let are_finite = |nodes: Range<usize>| {
+            of_nodes.into_iter().all(|vectors| nodal::is_finite(&vectors[nodes.clone()]))
+                && numbers.into_iter().all(|numbers| numbers[nodes.clone()].iter().all(|x| x.is_finite()))
+        };
+        let bodies = 0..assembly.body_count();
+        let runs = bodies.flat_map(|i| assembly.stepped(i).iter().map(move |run| assembly.numbered(i, run)));
+        let obstacles = assembly.node_count()..assembly.reference.len();
+        runs.chain([obstacles]).all(are_finite)
+            && nodal::is_finite(&self.support)
+            && self.energy_debt.iter().all(|x| x.is_finite())
             && self.sliding.iter().all(|record| record.distance.is_finite() && record.state.is_finite())
             && self.energies.kinetic.is_finite()
             && self.energies.strain.is_finite()

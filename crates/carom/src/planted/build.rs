@@ -116,6 +116,7 @@ impl<const D: usize> PlantedContact<D> {
                 is_massless: false,
                 turns: true,
                 axis: Vec::new(),
+                stepped: Vec::new(),
             });
         }
         let method = method(spec)?;

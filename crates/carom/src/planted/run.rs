@@ -100,12 +100,13 @@ impl<const D: usize> ForeignRun<D> {
                 is_massless: false,
                 turns: true,
                 axis: Vec::new(),
+                stepped: Vec::new(),
             });
             bodies.push(Box::new(body));
         }
         let assembly = assembled(&spec.planted, members, &sides, model, surfaces)?;
         let state = State::initial(&assembly, &bodies, velocities);
-        if !state.is_finite() {
+        if !state.is_finite(&assembly) {
             let message = "the initial energy is not finite; check velocities, energy and force at rest";
             return Err(InputError::new("bodies", message));
         }

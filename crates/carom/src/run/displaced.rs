@@ -47,7 +47,7 @@ impl<const D: usize> Simulation<D> {
         stage.set_in_motion(state);
         state.refresh(&model.assembly, &self.work.iterating.bodies);
         bond(&model.assembly, state);
-        if !state.is_finite() {
+        if !state.is_finite(&model.assembly) {
             let message = "the energy of the initial displacements is not finite; check their unit, metres";
             return Err(InputError::new("bodies", message));
         }

@@ -81,7 +81,7 @@ pub(super) fn commit<const D: usize>(
         report.ledger.add_pair(&pair.ledger);
         report.normal_force += pair.normal_force;
     }
-    if !next.is_finite() {
+    if !next.is_finite(assembly) {
         return Err(StepError::NotFinite("state"));
     }
     // What is largest or smallest of a run does not see what is not a number.

@@ -92,10 +92,12 @@ pub(super) fn end_solves<const D: usize>(
     work: &mut Iterating<D>,
 ) -> Result<(), StepError> {
     let Iterating { bodies: all, newton: Newton { correction, .. }, .. } = work;
-    try_each_body(given.assembly, bodies, (PerBody(all), PerNode(correction)), &|_, (body, correction)| {
+    try_each_body(given.assembly, bodies, (PerBody(all), PerNode(correction)), &|i, (body, correction)| {
         body.own().end_solve(correction.0);
         // The largest size does not see what is not a number.
-        if nodal::is_finite(correction.0) { Ok(()) } else { Err(StepError::NotFinite("displacement")) }
+        let is_finite =
+            given.assembly.stepped(i).iter().all(|run| nodal::is_finite(&correction.0[run.clone()]));
+        if is_finite { Ok(()) } else { Err(StepError::NotFinite("displacement")) }
     })
 }
 
@@ -109,14 +111,18 @@ pub(super) fn correct<const D: usize>(
     let Iterating { newton: Newton { correction, progress, .. }, motion, .. } = work;
     let all = (PerNode(motion), PerNode(reached), PerBody(progress));
     each_body(given.assembly, bodies, all, &|i, (motion, moved, progress)| {
-        let nodes = given.assembly.nodes(i);
-        let correction = &correction[nodes.clone()];
-        let size = nodal::largest(correction);
-        let start = &given.state.displacement[nodes];
-        nodal::each_of_two(motion.0, moved.0, [correction, start], |d, u1, [c, u0]| {
-            *d += c;
-            *u1 = u0 + *d;
-        });
-        progress.own().note(size, nodal::largest(motion.0));
+        let [mut size, mut total] = [0.0_f64; 2];
+        for run in given.assembly.stepped(i) {
+            let nodes = given.assembly.numbered(i, run);
+            let (motion, moved) = (&mut motion.0[run.clone()], &mut moved.0[run.clone()]);
+            let (correction, start) = (&correction[nodes.clone()], &given.state.displacement[nodes]);
+            size = size.max(nodal::largest(correction));
+            nodal::each_of_two(motion, moved, [correction, start], |d, u1, [c, u0]| {
+                *d += c;
+                *u1 = u0 + *d;
+            });
+            total = total.max(nodal::largest(motion));
+        }
+        progress.own().note(size, total);
     });
 }

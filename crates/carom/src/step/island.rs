@@ -143,7 +143,7 @@ fn accelerate<const D: usize>(
     let Iterating { contacts, newton: Newton { acceleration, correction, progress, .. }, motion, .. } = work;
     let touched = &contacts.active.touched;
     let last = Last { is_first, touched, progress, motion, correction };
-    acceleration.take_note(bodies, &last, |i| given.assembly.nodes(i));
+    acceleration.take_note(bodies, given.assembly, &last);
     acceleration.accelerate(bodies, touched, given, motion, reached);
 }
 

@@ -8,6 +8,7 @@ use super::iterating::Iterating;
 use super::workspace::Workspace;
 use crate::contact::Contacts;
 use crate::error::StepError;
+use crate::model::each_body::each_run;
 use crate::model::given::Given;
 use crate::model::state::State;
 
@@ -32,7 +33,10 @@ pub(super) fn iterate<const D: usize>(
         contacts.soften(everyone);
     }
     newton.begin(everyone, given.assembly, motion);
-    nodal::each(&mut next.displacement, [&given.state.displacement, motion], |u1, [u0, d]| *u1 = u0 + d);
+    let start = &given.state.displacement;
+    each_run(given.assembly, &mut next.displacement, &|reached, nodes| {
+        nodal::each(reached, [&start[nodes.clone()], &motion[nodes]], |u1, [u0, d]| *u1 = u0 + d);
+    });
     let solve: Solve<D> = if given.interval.map.is_static() { equilibrate } else { iterate_bodies };
     let islands = contacts.divide(given);
     let rests = &resting.who.bodies;

@@ -1,7 +1,6 @@
 //! What a step leaves of solids inside one another, and what goes through others on its way.
 
 use carom_contact::{Penetration, Solid};
-use carom_mesh::nodal;
 
 use super::iterating::Iterating;
 use super::report::{Inside, PenetrationReport};
@@ -12,13 +11,15 @@ use crate::error::StepError;
 use crate::model::given::Given;
 use crate::model::state::State;
 
-/// Measures all boundaries at the end of the step and, where nodes move by more than half a cell past what they may touch, on the way there.
+/// Measures all boundaries at the end of the step and, where nodes move by more than half a cell past what they may touch, on the way there. None
+/// travels farther than `travel` [m] in a direction.
 ///
 /// # Errors
 /// If something is in the way. A shorter step finds the contact; one short enough is its own way.
 pub(super) fn measure<const D: usize>(
     given: &Given<'_, D>,
     next: &State<D>,
+    travel: f64,
     work: &mut Workspace<D>,
 ) -> Result<PenetrationReport, StepError> {
     let Given { assembly, method, state, interval } = *given;
@@ -33,7 +34,7 @@ pub(super) fn measure<const D: usize>(
     let moves = |between: [Solid; 2]| counts(between) && !between.iter().all(|s| resting.who.is_still(*s));
     let obstacles = &assembly.contact.obstacles;
     let times = [state.time, interval.end];
-    let parts = boundaries.parts(nodal::largest(motion), obstacles, moves, &start, &end);
+    let parts = boundaries.parts(travel, obstacles, moves, &start, &end);
     for part in 1..parts {
         let share = part as f64 / parts as f64;
         let between = |n: u32| start(n) * (1.0 - share) + end(n) * share;

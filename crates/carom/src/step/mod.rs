@@ -49,7 +49,7 @@ use crate::contact::Contacts;
 use crate::contact::cross_check::cross_check;
 use crate::error::StepError;
 use crate::model::assembly::Assembly;
-use crate::model::each_body::{PerBody, PerNode, try_each_body};
+use crate::model::each_body::{PerBody, PerNode, each_run, try_each_body};
 use crate::model::given::Given;
 use crate::model::method::Method;
 use crate::model::state::State;
@@ -118,7 +118,8 @@ fn make_step<const D: usize>(
         iterations += made?;
         place_outlines(given, next, work);
         let since = Instant::now();
-        let penetration = looked_at(given, next, repetition, work);
+        let travel = nodal::largest(&work.iterating.motion);
+        let penetration = looked_at(given, next, travel, repetition, work);
         work.detection_time += since.elapsed();
         if let Some(penetration) = penetration? {
             let report = commit(given, next, work, iterations)?;
@@ -131,7 +132,6 @@ fn make_step<const D: usize>(
             let Workspace { iterating: Iterating { bodies, contacts, .. }, resting, .. } = work;
             resting.note(given, next, bodies, &contacts.finder.found);
             let cross_check = cross_check(given, &work.iterating.contacts);
-            let travel = nodal::largest(&work.iterating.motion);
             return Ok(StepReport { penetration, travel, cross_check, ..report });
         }
     }
@@ -150,10 +150,11 @@ fn find<const D: usize>(
     resting.rouse_found(given, &contacts.active.candidates)
 }
 
-/// Looks at where a step led to: what is inside what. None if a contact was missed, with which the step is to be repeated.
+/// Looks at where a step led to, in which no node travelled farther than `travel` [m] in a direction: what is inside what. None if a contact was missed, with which the step is to be repeated.
 fn looked_at<const D: usize>(
     given: &Given<'_, D>,
     next: &State<D>,
+    travel: f64,
     repetition: usize,
     work: &mut Workspace<D>,
 ) -> Result<Option<PenetrationReport>, StepError> {
@@ -163,7 +164,7 @@ fn looked_at<const D: usize>(
     if finder.missed_one(given, &resting.who, (motion, next), active, may_be_repeated) {
         return Ok(None);
     }
-    let penetration = measure(given, next, work)?;
+    let penetration = measure(given, next, travel, work)?;
     let Workspace { iterating: Iterating { contacts, .. }, boundaries, .. } = work;
     let is_left = repetition >= SEARCH.measured;
     Ok((is_left || !contacts.finder.missed_by(given, next, boundaries.witnesses())).then_some(penetration))
@@ -177,7 +178,9 @@ fn predict<const D: usize>(given: &Given<'_, D>, work: &mut Workspace<D>) -> Res
     let Workspace { iterating: Iterating { bodies, motion, factorisations, .. }, forecasts, resting, .. } =
         work;
     let flight = if interval.map.is_static() { 0.0 } else { dt };
-    nodal::each(motion, [&state.velocity], |d, [v]| *d = v * flight);
+    each_run(assembly, motion, &|motion, nodes| {
+        nodal::each(motion, [&state.velocity[nodes]], |d, [v]| *d = v * flight);
+    });
     let mut driven = given.move_obstacles(motion)?;
     let obstacles = state.velocity[assembly.node_count()..].iter();
     let mut speed = obstacles.map(Vector::norm_squared).fold(0.0, f64::max).sqrt();

@@ -183,6 +183,7 @@ fn setting(stiffness: f64, gravity: f64, obstacle: Obstacle<2>, friction: f64) -
         is_massless: false,
         turns: false,
         axis: Vec::new(),
+        stepped: Vec::new(),
     };
     let body = PointMass { stiffness, gravity: Vector::<2>::new(0.0, -gravity), ..PointMass::default() };
     Setting {

@@ -67,7 +67,7 @@ fn scene_is_eventful_and_lawful() {
     assert!(summary.min_gap > -1e-12, "no penetration at the ends of steps: {}", summary.min_gap);
     assert!(summary.certificate.max_joule < 1e-10 && summary.certificate.max_residual < 1e-11);
     assert!(summary.energy.max_defect < 1e-3 * summary.energy.initial);
-    assert!(simulation.state().is_finite());
+    assert!(simulation.state().is_finite(&simulation.model().assembly));
 }
 
 #[test]

@@ -48,7 +48,7 @@ fn a_run_that_cannot_go_on_says_why_and_keeps_the_last_good_state() {
     assert!(matches!(error.reason, StepError::Newton { iterations: 1, .. }), "{error}");
     assert_eq!((error.halvings, error.time_step), (3, 1e-2 / 8.0));
     assert_eq!(error.time, simulation.time());
-    assert!(simulation.state().is_finite());
+    assert!(simulation.state().is_finite(&simulation.model().assembly));
     let before = simulation.take_history().len();
     simulation.finish();
     assert!(simulation.take_history().len() <= before + simulation.history_columns().len());

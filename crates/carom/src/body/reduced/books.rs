@@ -39,8 +39,8 @@ impl<const D: usize> ReducedBody<D> {
         let [viscous, of_vibrations] = equation.taken(own, &moved.stretch, scratch);
         let rates = Rates { twist, amplitudes: std::mem::take(scratch) };
         let energies = own.energies(reached, &rates);
-        end.internal_force.fill(Vector::zeros());
         for node in own.moved.iter().map(|&n| n as usize) {
+            end.internal_force[node] = Vector::zeros();
             end.velocity[node] = own.velocity(reached, &rates, node);
         }
         *scratch = rates.amplitudes;

@@ -1,6 +1,6 @@
 //! How a reduced body yields to forces on its nodes.
 
-use carom_mesh::{Matrix, Vector};
+use carom_mesh::Matrix;
 
 use super::part::ReducedPart;
 use crate::body::rigid::pose::{cross_matrix, inverse_on};
@@ -15,22 +15,26 @@ pub(super) fn own_compliance<const D: usize>(
 ) -> f64 {
     let arm = cross_matrix(&part.shape.arm(node as usize));
     let rigid = shift - arm * turn * arm;
-    let shapes = part.reduction.shapes_at(node as usize);
     let rigid: f64 = (0..D).map(|i| rigid[(i, i)]).sum();
-    (rigid + inner(shapes, shapes, compliance).trace()) / D as f64
+    let shapes =
+        part.reduction.shapes_at(node as usize).into_iter().flat_map(|along| along.iter().enumerate());
+    (rigid + shapes.map(|(k, shape)| compliance(k) * shape * shape).sum::<f64>()) / D as f64
 }
 
-/// Σ c Φ_a ⊗ Φ_b: how the vibrations let one node yield to a force on another, in the frame of the body.
-pub(super) fn inner<const D: usize>(
-    a: &[Vector<D>],
-    b: &[Vector<D>],
+/// The shapes of a node, each times how its amplitude yields.
+pub(super) fn weighed<const D: usize>(
+    part: &ReducedPart<D>,
+    node: u32,
     compliance: impl Fn(usize) -> f64,
-) -> Matrix<D> {
-    let mut sum = Matrix::zeros();
-    for (k, (a, b)) in a.iter().zip(b).enumerate() {
-        sum += a * (b * compliance(k)).transpose();
-    }
-    sum
+) -> [Vec<f64>; D] {
+    let weigh = |shapes: &[f64]| shapes.iter().enumerate().map(|(k, shape)| compliance(k) * shape).collect();
+    part.reduction.shapes_at(node as usize).map(weigh)
+}
+
+/// Σ c Φ_a ⊗ Φ_b: how the vibrations let the node `a` yield to a force on `b`, in the frame of the body.
+pub(super) fn inner<const D: usize>(part: &ReducedPart<D>, a: &[Vec<f64>; D], b: u32) -> Matrix<D> {
+    let rows = part.reduction.displacements(b as usize, a.each_ref().map(Vec::as_slice));
+    Matrix::from_fn(|i, j| rows[i][j])
 }
 
 /// How shifts and turns answer to impulses: the inverse of the mass [1/kg] and of the inertia [1/(kg m²)].

@@ -16,6 +16,9 @@ use crate::scheme::StressRule;
 /// Rounds between the rigid motion and the vibrations, each of which leaves of an error about the strain.
 const ROUNDS: usize = 50;
 
+/// What is less than this of the motion of nodes is the round-off of it.
+const ROUND_OFF: f64 = 4.0 * f64::EPSILON;
+
 /// The motion of a reduced body in a step.
 #[derive(Debug, Clone)]
 pub(super) struct Moved {
@@ -109,12 +112,18 @@ fn end_share(map: &StepMap) -> f64 {
 }
 
 impl<const D: usize> ReducedEquation<D> {
-    /// Makes the equation of a step that starts in `place` at these `rates`.
-    pub fn begin(&mut self, part: &ReducedPart<D>, map: StepMap) {
+    /// Makes the equation of a step in which the nodes start with these displacements [m] and velocities [m/s].
+    pub fn begin(
+        &mut self,
+        part: &ReducedPart<D>,
+        map: StepMap,
+        [u, v]: [&[Vector<D>]; 2],
+        reading: &mut Reading<D>,
+    ) {
         let Self { rigid, place, rates, compliance, bent, .. } = self;
-        for node in part.moved.iter().map(|&n| n as usize) {
-            bent[node] = part.reduction.displacement(node, &place.amplitudes);
-        }
+        part.place(u, reading, place);
+        part.bend(&part.moved, &place.amplitudes, bent);
+        part.rates(&place.pose.rotation, bent, v, reading, rates);
         *rigid = Equation::new(&part.shape, map, place.pose, rates.twist);
         for (own, &k) in compliance.iter_mut().zip(part.reduction.stiffness()) {
             let damped = damping(part, k) * map.damping_coefficient();
@@ -180,8 +189,7 @@ impl<const D: usize> ReducedEquation<D> {
         out.fill(0.0);
         for &node in &forces.pressed {
             let own = lower::<D>(&mean.tr_mul(&lift(&forces.at[node as usize])));
-            let shapes = part.reduction.shapes_at(node as usize);
-            out.iter_mut().zip(shapes).for_each(|(g, shape)| *g += shape.dot(&own));
+            part.reduction.add_force(node as usize, &own, out);
         }
     }
 
@@ -194,26 +202,33 @@ impl<const D: usize> ReducedEquation<D> {
         lower(&(shift + turn.cross(&(mean * arm)) + mean * lift(&stretch)))
     }
 
-    /// Finds the motion in which the nodes that are read move as `asked` [m], from the guess that `moved` is.
+    /// Finds the motion in which the nodes that are read move as `asked` [m], from the guess that `moved` is, in which they move as `told` [m] where that
+    /// is known. Returns whether it has become another than that.
     pub fn read(
         &self,
         part: &ReducedPart<D>,
         asked: impl Fn(usize) -> Vector<D>,
+        told: Option<&[Vector<D>]>,
         moved: &mut Moved,
         reading: &mut Reading<D>,
-    ) {
+    ) -> bool {
         let Reading { local, content, .. } = reading;
         let mut last = f64::INFINITY;
-        for _ in 0..ROUNDS {
+        for round in 0..ROUNDS {
             let mean = moved.rigid.mean_rotation(&self.place.pose);
-            let mut size = 0.0_f64;
-            for (local, &node) in local.iter_mut().zip(part.reduction.read_nodes()) {
-                let left = asked(node as usize) - self.motion(part, moved, &mean, node as usize);
+            let told = told.filter(|_| round == 0);
+            let (mut size, mut whole) = (0.0_f64, 0.0_f64);
+            for (local, node) in local.iter_mut().zip(part.reduction.read_nodes().iter().map(|&n| n as usize))
+            {
+                let asked = asked(node);
+                let own = told.map_or_else(|| self.motion(part, moved, &mean, node), |told| told[node]);
+                let left = asked - own;
                 size = size.max(left.norm_squared());
+                whole = whole.max(asked.norm_squared());
                 *local = lower(&mean.tr_mul(&lift(&left)));
             }
-            if size.is_nan() || size >= last || size == 0.0 {
-                break;
+            if size.is_nan() || size >= last || size <= ROUND_OFF * ROUND_OFF * whole {
+                return round > 0;
             }
             last = size;
             part.reduction.read(local, content);
@@ -221,6 +236,7 @@ impl<const D: usize> ReducedEquation<D> {
             moved.rigid.turn += mean * Vector::<3>::from(content.turn);
             moved.stretch.iter_mut().zip(&content.amplitudes).for_each(|(d, a)| *d += a);
         }
+        true
     }
 
     /// Velocities of amplitudes at the end of the step.

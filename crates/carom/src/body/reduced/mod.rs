@@ -16,7 +16,7 @@ use std::sync::Arc;
 
 use carom_mesh::{Matrix, Vector};
 
-use self::compliance::{inner, mobility, own_compliance};
+use self::compliance::{inner, mobility, own_compliance, weighed};
 use self::equation::{Forces, Moved, ReducedEquation};
 use self::part::{Reading, ReducedPart};
 use self::place::{Place, Rates};
@@ -37,6 +37,9 @@ pub(crate) struct ReducedBody<const D: usize> {
     moved: Moved,
     solved: Moved,
     is_solved: bool,
+    /// The motion of nodes that was told last [m], and whether it is that of `solved`, or of the guess where that is what the step began with.
+    told: Vec<Vector<D>>,
+    is_told: bool,
     forces: Forces<D>,
     /// Where the guess leads to.
     reached: Place,
@@ -59,6 +62,8 @@ pub(crate) struct ReducedBody<const D: usize> {
     looked_at: Vec<f64>,
     is_looked_at: bool,
     since_look: Vec<f64>,
+    /// How far they let nodes of the outline move at most [m].
+    wandered: f64,
     /// What an impulse gave it.
     jolted: Rates,
     scratch: Vec<f64>,
@@ -98,6 +103,8 @@ impl<const D: usize> ReducedBody<D> {
             moved: Moved::of(count),
             solved: Moved::of(count),
             is_solved: false,
+            told: zeros.clone(),
+            is_told: false,
             forces: Forces::none(nodes, body.body.surface().nodes().len()),
             reached: place,
             motion: zeros,
@@ -113,6 +120,7 @@ impl<const D: usize> ReducedBody<D> {
             looked_at: vec![0.0; count],
             is_looked_at: false,
             since_look: vec![0.0; count],
+            wandered: 0.0,
             jolted: Rates::of(count),
             scratch: vec![0.0; count],
             body,
@@ -128,12 +136,20 @@ impl<const D: usize> ReducedBody<D> {
         if self.is_solved {
             self.moved.copy(&self.solved);
         }
-        let Self { equation, moved, reached, healed, motion, reading, .. } = self;
+        let Self { equation, moved, reached, healed, motion, told, is_told, reading, .. } = self;
         let asked = |n: usize| motion[n] - healed[n];
-        equation.read(own, asked, moved, reading);
+        let told = is_told.then_some(&**told);
+        let has_changed = equation.read(own, asked, told, moved, reading);
+        *is_told &= !has_changed;
         reached.pose = moved.rigid.from(&equation.place.pose);
         let ends = equation.place.amplitudes.iter().zip(&moved.stretch);
         reached.amplitudes.iter_mut().zip(ends).for_each(|(end, (a, d))| *end = a + d);
+        self.is_solved = false;
+    }
+
+    /// Forgets what the forces known so far made of the guess, as there are others.
+    fn is_pressed_anew(&mut self) {
+        self.is_told &= !self.is_solved;
         self.is_solved = false;
     }
 
@@ -150,14 +166,11 @@ impl<const D: usize> ReducedBody<D> {
             *arm = self.arms_in * own.bent_arm(node as usize, &self.equation.mean);
         }
         if self.inner_of != Some(self.equation.rigid.map) {
-            let shapes = |node: u32| own.reduction.shapes_at(node as usize);
             self.inner.clear();
-            self.inner.extend(
-                surface
-                    .iter()
-                    .flat_map(|&a| surface.iter().map(move |&b| (a, b)))
-                    .map(|(a, b)| inner(shapes(a), shapes(b), |k| self.equation.compliance[k])),
-            );
+            for &a in surface {
+                let a = weighed(own, a, |k| self.equation.compliance[k]);
+                self.inner.extend(surface.iter().map(|&b| inner(own, &a, b)));
+            }
             self.inner_of = Some(self.equation.rigid.map);
         }
         self.generation += 1;
@@ -175,6 +188,7 @@ impl<const D: usize> ReducedBody<D> {
         if self.is_solved {
             return;
         }
+        self.is_told = false;
         self.solved.copy(&self.moved);
         self.equation.solve(part(&self.body), &self.forces, &mut self.solved, &mut self.scratch);
         self.is_solved = true;
@@ -206,10 +220,7 @@ impl<const D: usize> Body<D> for ReducedBody<D> {
         motion: &mut [Vector<D>],
     ) -> Result<Forecast, StepError> {
         let own = part(&self.body);
-        let ReducedEquation { place, rates, .. } = &mut self.equation;
-        own.place(start.displacement, &mut self.reading, place);
-        own.rates(place, start.velocity, &mut self.reading, rates);
-        self.equation.begin(own, interval.map);
+        self.equation.begin(own, interval.map, [start.displacement, start.velocity], &mut self.reading);
         self.moved.rigid = self.equation.rigid.driven();
         self.moved.stretch.fill(0.0);
         // What an attempt at the step that failed has left is not that of this one.
@@ -217,12 +228,15 @@ impl<const D: usize> Body<D> for ReducedBody<D> {
         // Free flight is known to round-off before the first iteration.
         self.forces.restart(Wrench::default());
         self.equation.solve(own, &self.forces, &mut self.moved, &mut self.scratch);
-        motion.fill(Vector::zeros());
-        let mean = self.moved.rigid.mean_rotation(&self.equation.place.pose);
+        let Self { equation, moved, told, healed, .. } = self;
+        let mean = moved.rigid.mean_rotation(&equation.place.pose);
         for node in own.moved.iter().map(|&n| n as usize) {
-            self.healed[node] = own.displacement(&self.equation.place, node) - start.displacement[node];
-            motion[node] = self.motion_of(&self.moved, &mean, node);
+            let placed = own.displaced(&equation.place.pose, node, &equation.bent[node]);
+            healed[node] = placed - start.displacement[node];
+            told[node] = equation.motion(own, moved, &mean, node);
+            motion[node] = told[node] + healed[node];
         }
+        self.is_told = true;
         let speed = own.moved.iter().map(|&n| start.velocity[n as usize].norm_squared()).fold(0.0, f64::max);
         self.make();
         let acceleration = self.body.gravity.norm();
@@ -232,7 +246,8 @@ impl<const D: usize> Body<D> for ReducedBody<D> {
     /// That of a step in time is zero: forces that do not depend on contacts make the whole motion in [`Self::begin_solve`].
     fn residual(&mut self, guess: &Guess<'_, D>, _blend: Option<f64>, out: &mut [Vector<D>]) {
         self.take(guess);
-        out.fill(Vector::zeros());
+        // Others have none ever.
+        part(&self.body).moved.iter().for_each(|&n| out[n as usize] = Vector::zeros());
     }
 
     fn begin_solve(&mut self, residual: &[Vector<D>]) {
@@ -240,7 +255,7 @@ impl<const D: usize> Body<D> for ReducedBody<D> {
         for &node in self.body.body.surface().nodes() {
             self.forces.add(node, &residual[node as usize]);
         }
-        self.is_solved = false;
+        self.is_pressed_anew();
     }
 
     fn set_reach(&mut self, _nodes: &[u32]) {}
@@ -255,16 +270,19 @@ impl<const D: usize> Body<D> for ReducedBody<D> {
 
     fn add_forces(&mut self, nodes: &[u32], forces: &[Vector<D>]) {
         nodes.iter().for_each(|&node| self.forces.add(node, &forces[node as usize]));
-        self.is_solved = false;
+        self.is_pressed_anew();
     }
 
     fn end_solve(&mut self, correction: &mut [Vector<D>]) {
         self.solve();
-        correction.fill(Vector::zeros());
-        let mean = self.solved.rigid.mean_rotation(&self.equation.place.pose);
-        for node in part(&self.body).moved.iter().map(|&n| n as usize) {
-            correction[node] = self.motion_of(&self.solved, &mean, node) - self.motion[node];
+        let Self { body, equation, solved, told, healed, motion, .. } = self;
+        let own = part(body);
+        let mean = solved.rigid.mean_rotation(&equation.place.pose);
+        for node in own.moved.iter().map(|&n| n as usize) {
+            told[node] = equation.motion(own, solved, &mean, node);
+            correction[node] = told[node] + healed[node] - motion[node];
         }
+        self.is_told = true;
     }
 
     fn renew(&mut self, guess: &Guess<'_, D>, _again: bool) -> Result<(), StepError> {
@@ -321,8 +339,7 @@ impl<const D: usize> Body<D> for ReducedBody<D> {
             let push = lift(&impulse[node as usize]);
             wrench.add(&own.bent_arm(node as usize, &place.amplitudes), &push);
             let turned = lower::<D>(&place.pose.rotation.tr_mul(&push));
-            let shapes = own.reduction.shapes_at(node as usize);
-            rates.amplitudes.iter_mut().zip(shapes).for_each(|(v, shape)| *v += shape.dot(&turned));
+            own.reduction.add_force(node as usize, &turned, &mut rates.amplitudes);
         }
         let [along, about] = mobility(&own.shape, &place.pose.rotation);
         let moment = wrench.moment_at(&place.pose.rotation);
@@ -361,14 +378,7 @@ impl<const D: usize> Body<D> for ReducedBody<D> {
     }
 
     fn wandered(&self) -> Option<f64> {
-        let own = part(&self.body);
-        let moved =
-            own.moved.iter().map(|&n| own.reduction.displacement(n as usize, &self.since_look).norm());
-        Some(if self.is_looked_at {
-            moved.fold(own.outline.bend(&self.since_look), f64::max)
-        } else {
-            f64::MAX
-        })
+        Some(if self.is_looked_at { self.wandered } else { f64::MAX })
     }
 
     fn looked_at(&mut self) {
@@ -382,18 +392,22 @@ impl<const D: usize> Body<D> for ReducedBody<D> {
         own.place(displacement, &mut self.reading, &mut self.reached);
         let ends = self.reached.amplitudes.iter().zip(&self.looked_at);
         self.since_look.iter_mut().zip(ends).for_each(|(since, (now, then))| *since = now - then);
-        own.outline.balls(&own.shape, [&self.equation.place, &self.reached], out);
+        let moved =
+            own.moved.iter().map(|&n| own.reduction.displacement(n as usize, &self.since_look).norm());
+        self.wandered = moved.fold(own.outline.bend(&self.since_look), f64::max);
+        let ends = [&self.equation.place, &self.reached];
+        own.outline.balls(&own.shape, ends, &mut self.scratch, out);
     }
 
     fn complete(&mut self, places: [&mut [Vector<D>]; 2], is_near: &dyn Fn(usize) -> bool) {
         let own = part(&self.body);
         let ends = [&self.equation.place, &self.reached];
         let [displacement, motion] = places;
+        let exact = |node: usize| own.displacements(ends, node);
         for node in own.tracked.iter().map(|&n| n as usize) {
-            displacement[node] = own.displacement(ends[1], node);
-            motion[node] = displacement[node] - own.displacement(ends[0], node);
+            let [from, to] = exact(node);
+            (displacement[node], motion[node]) = (to, to - from);
         }
-        let exact = |place: &Place, node: usize| own.displacement(place, node);
         own.outline.place((&own.shape, exact), ends, [displacement, motion], is_near);
     }
 }

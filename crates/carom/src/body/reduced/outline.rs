@@ -76,9 +76,10 @@ impl Outline {
             for &n in &nodes {
                 for &other in &of_facets[n as usize] {
                     let shapes = reduction.shapes_at(other as usize);
-                    most.iter_mut()
-                        .zip(shapes)
-                        .for_each(|(most, shape)| *most = most.max(shape.norm() * moves[n as usize]));
+                    for (k, most) in most.iter_mut().enumerate() {
+                        let shape = Vector::<D>::from_fn(|i, _| shapes[i][k]);
+                        *most = most.max(shape.norm() * moves[n as usize]);
+                    }
                 }
             }
             Clump { nodes, arm, radius, most }
@@ -91,31 +92,33 @@ impl Outline {
         self.clumps.iter().map(|clump| clump.bend(amplitudes)).fold(0.0, f64::max)
     }
 
-    /// Writes a ball for every clump, in which it is all the way from `start` to `end`.
+    /// Writes a ball for every clump, in which it is all the way from `start` to `end`; `most` is scratch of as many amplitudes.
     pub fn balls<const D: usize>(
         &self,
         shape: &RigidShape<D>,
         [start, end]: [&Place; 2],
+        most: &mut [f64],
         out: &mut Vec<Ball<D>>,
     ) {
         let centre = shape.centre;
+        let ends = start.amplitudes.iter().zip(&end.amplitudes);
+        most.iter_mut().zip(ends).for_each(|(most, (a, b))| *most = a.abs().max(b.abs()));
         out.clear();
         out.extend(self.clumps.iter().map(|clump| {
             let [from, to] =
                 [start, end].map(|place| centre + place.pose.shift + place.pose.rotation * clump.arm);
-            let bend = clump.bend(&start.amplitudes).max(clump.bend(&end.amplitudes));
             Ball {
                 centre: lower(&((from + to) * 0.5)),
-                radius: clump.radius + bend + 0.5 * (to - from).norm(),
+                radius: clump.radius + clump.bend(most) + 0.5 * (to - from).norm(),
             }
         }));
     }
 
     /// Places the nodes of every clump at the `end` of a step and says how far they moved [m]: where the clump `is_near` of something by what is `exact`, the
-    /// displacement of a node in a place, elsewhere as the body without strain would have them.
+    /// displacements of a node at both ends, elsewhere as the body without strain would have them.
     pub fn place<const D: usize>(
         &self,
-        (shape, exact): (&RigidShape<D>, impl Fn(&Place, usize) -> Vector<D>),
+        (shape, exact): (&RigidShape<D>, impl Fn(usize) -> [Vector<D>; 2]),
         [start, end]: [&Place; 2],
         [displacement, motion]: [&mut [Vector<D>]; 2],
         is_near: &dyn Fn(usize) -> bool,
@@ -127,8 +130,8 @@ impl Outline {
             let is_near = is_near(k);
             for node in clump.nodes.iter().map(|&n| n as usize) {
                 if is_near {
-                    displacement[node] = exact(end, node);
-                    motion[node] = displacement[node] - exact(start, node);
+                    let [from, to] = exact(node);
+                    (displacement[node], motion[node]) = (to, to - from);
                 } else {
                     let arm = shape.arm(node);
                     displacement[node] = lower(&(end.pose.shift + turned * arm));
@@ -141,7 +144,14 @@ impl Outline {
 
 impl Clump {
     fn bend(&self, amplitudes: &[f64]) -> f64 {
-        self.most.iter().zip(amplitudes).map(|(most, a)| most * a.abs()).sum()
+        // Eight sums at once: one would wait for itself.
+        let mut sums = [0.0; 8];
+        for (most, amplitudes) in self.most.chunks(8).zip(amplitudes.chunks(8)) {
+            for (sum, (most, a)) in sums.iter_mut().zip(most.iter().zip(amplitudes)) {
+                *sum += most * a.abs();
+            }
+        }
+        sums.iter().sum()
     }
 }
 

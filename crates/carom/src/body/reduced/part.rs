@@ -35,7 +35,6 @@ pub(crate) struct ReducedPart<const D: usize> {
 #[derive(Debug, Clone)]
 pub(crate) struct Reading<const D: usize> {
     pub(super) local: Vec<Vector<D>>,
-    bent: Vec<Vector<D>>,
     pub(super) content: Content<D>,
 }
 
@@ -43,7 +42,7 @@ impl<const D: usize> Reading<D> {
     /// For a body.
     pub fn new(part: &ReducedPart<D>) -> Self {
         let zeros = vec![Vector::zeros(); part.reduction.read_nodes().len()];
-        Self { local: zeros.clone(), bent: zeros, content: Content::of(part.reduction.count()) }
+        Self { local: zeros, content: Content::of(part.reduction.count()) }
     }
 }
 
@@ -91,21 +90,40 @@ impl<const D: usize> ReducedPart<D> {
         self.shape.arm(node) + lift(&self.reduction.displacement(node, amplitudes))
     }
 
+    /// Writes by how much these amplitudes [m √kg] bend the body at some nodes, in its frame [m].
+    pub fn bend(&self, nodes: &[u32], amplitudes: &[f64], bent: &mut [Vector<D>]) {
+        for node in nodes.iter().map(|&n| n as usize) {
+            bent[node] = self.reduction.displacement(node, amplitudes);
+        }
+    }
+
     /// The displacement of a node [m].
     #[inline]
     pub fn displacement(&self, place: &Place, node: usize) -> Vector<D> {
-        let Pose { shift, rotation } = place.pose;
-        let own = rotation * lift(&self.reduction.displacement(node, &place.amplitudes));
-        lower(&(shift + (rotation - Matrix::identity()) * self.shape.arm(node) + own))
+        self.displaced(&place.pose, node, &self.reduction.displacement(node, &place.amplitudes))
+    }
+
+    /// Those in two places.
+    #[inline]
+    pub fn displacements(&self, places: [&Place; 2], node: usize) -> [Vector<D>; 2] {
+        let [a, b] = self.reduction.displacements(node, places.map(|place| &place.amplitudes[..]));
+        [self.displaced(&places[0].pose, node, &a), self.displaced(&places[1].pose, node, &b)]
+    }
+
+    /// The displacement of a node [m] that vibrations have `bent` in the frame of the body [m].
+    #[inline]
+    pub fn displaced(&self, pose: &Pose, node: usize, bent: &Vector<D>) -> Vector<D> {
+        let Pose { shift, rotation } = pose;
+        lower(&(shift + (rotation - Matrix::identity()) * self.shape.arm(node) + rotation * lift(bent)))
     }
 
     /// The velocity of a node [m/s].
     #[inline]
     pub fn velocity(&self, place: &Place, rates: &Rates, node: usize) -> Vector<D> {
         let Pose { rotation, .. } = place.pose;
-        let bent = rotation * self.bent_arm(node, &place.amplitudes);
-        let own = rotation * lift(&self.reduction.displacement(node, &rates.amplitudes));
-        lower(&(rates.twist.velocity + rates.twist.spin.cross(&bent) + own))
+        let [bent, bending] = self.reduction.displacements(node, [&place.amplitudes, &rates.amplitudes]);
+        let arm = rotation * (self.shape.arm(node) + lift(&bent));
+        lower(&(rates.twist.velocity + rates.twist.spin.cross(&arm) + rotation * lift(&bending)))
     }
 
     /// Finds the place where the nodes that are read have these displacements [m], which are of all nodes: the frame in which shift and turn are zero.
@@ -138,19 +156,23 @@ impl<const D: usize> ReducedPart<D> {
         place.amplitudes.copy_from_slice(&content.amplitudes);
     }
 
-    /// Finds how the body moves in a place where the nodes that are read have these velocities [m/s], which are of all nodes.
-    pub fn rates(&self, place: &Place, v: &[Vector<D>], reading: &mut Reading<D>, rates: &mut Rates) {
+    /// Finds how the body moves where the nodes that are read have these velocities [m/s], which are of all nodes as is what vibrations have `bent` them
+    /// by in the frame of the body [m], which has this `rotation`.
+    pub fn rates(
+        &self,
+        rotation: &Matrix<3>,
+        bent: &[Vector<D>],
+        v: &[Vector<D>],
+        reading: &mut Reading<D>,
+        rates: &mut Rates,
+    ) {
         let nodes = self.reduction.read_nodes();
-        let Pose { rotation, .. } = place.pose;
-        let Reading { local, bent, content } = reading;
-        for (bent, &node) in bent.iter_mut().zip(nodes) {
-            *bent = self.reduction.displacement(node as usize, &place.amplitudes);
-        }
+        let Reading { local, content } = reading;
         let (mut spin, mut last) = (Vector::<3>::zeros(), f64::INFINITY);
         for _ in 0..ITERATIONS {
-            for ((local, bent), &node) in local.iter_mut().zip(&*bent).zip(nodes) {
-                let own = rotation.tr_mul(&lift(&v[node as usize]));
-                *local = lower(&(own - spin.cross(&lift(bent))));
+            for (local, node) in local.iter_mut().zip(nodes.iter().map(|&n| n as usize)) {
+                let own = rotation.tr_mul(&lift(&v[node]));
+                *local = lower(&(own - spin.cross(&lift(&bent[node]))));
             }
             let turn = Vector::<3>::from(self.reduction.read_turn(local));
             let change = (turn - spin).norm();
@@ -182,7 +204,9 @@ impl<const D: usize> ReducedPart<D> {
         let mut reading = Reading::new(self);
         let (mut place, mut rates) = (Place::of(count), Rates::of(count));
         self.place(u, &mut reading, &mut place);
-        self.rates(&place, v, &mut reading, &mut rates);
+        let mut bent = vec![Vector::zeros(); u.len()];
+        self.bend(self.reduction.read_nodes(), &place.amplitudes, &mut bent);
+        self.rates(&place.pose.rotation, &bent, v, &mut reading, &mut rates);
         (place, rates)
     }
 

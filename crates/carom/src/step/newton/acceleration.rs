@@ -4,12 +4,11 @@
 //! whose corrections cancel best (Walker & Ni, SIAM J. Numer. Anal. 49, 2011). Bodies of an island depend on one another and
 //! share a combination, others have their own. The acceleration is local to a step: contacts of the next one are others.
 
-use std::ops::Range;
-
 use carom_mesh::{Vector, nodal};
 
 use super::control::CONTROL;
 use super::convergence::BodyProgress;
+use crate::model::assembly::Assembly;
 use crate::model::each_body::{PerNode, each_body};
 use crate::model::given::Given;
 
@@ -121,39 +120,46 @@ impl<const D: usize> Acceleration<D> {
         bodies.iter().for_each(|&i| self.bodies[i] = Record::default());
     }
 
-    /// Takes note of the correction `f` of a body, at `nodes` of the model, and of the guess that led to it, to the `motion` so far.
-    fn record(&mut self, body: usize, nodes: Range<usize>, motion: &[Vector<D>], f: &[Vector<D>]) {
+    /// Takes note of the correction of a body, and of the guess that led to it, to the motion so far.
+    fn record(&mut self, body: usize, assembly: &Assembly<D>, last: &Last<'_, D>) {
         let record = &mut self.bodies[body];
         record.count += 1;
         let (slot, differences) = (record.slot(), record.differences());
-        let f = &f[nodes.clone()];
-        let (guess, correction) = (&mut self.guess[nodes.clone()], &mut self.correction[nodes.clone()]);
-        let changes = &mut self.guesses[slot][nodes.clone()];
-        nodal::each_of_two(changes, guess, [&motion[nodes.clone()], f], |change, guess, [d, f]| {
-            let before = d - f;
-            *change = before - *guess;
-            *guess = before;
-        });
-        let changes = &mut self.corrections[slot][nodes.clone()];
-        nodal::each_of_two(changes, correction, [f], |change, correction, [f]| {
-            *change = f - *correction;
-            *correction = *f;
-        });
         let Products { matrix, right } = &mut record.products;
-        for j in (0..differences).map(|j| (slot + DEPTH - j) % DEPTH) {
-            let other = &self.corrections[j][nodes.clone()];
-            matrix[slot][j] = nodal::dot(&self.corrections[slot][nodes.clone()], other);
-            matrix[j][slot] = matrix[slot][j];
-            right[j] = nodal::dot(other, f);
+        let others = (0..differences).map(|j| (slot + DEPTH - j) % DEPTH);
+        for j in others.clone() {
+            (matrix[slot][j], right[j]) = (0.0, 0.0);
         }
+        for run in assembly.stepped(body) {
+            let nodes = assembly.numbered(body, run);
+            let (d, f) = (&last.motion[nodes.clone()], &last.correction[nodes.clone()]);
+            let (guess, correction) = (&mut self.guess[nodes.clone()], &mut self.correction[nodes.clone()]);
+            let changes = &mut self.guesses[slot][nodes.clone()];
+            nodal::each_of_two(changes, guess, [d, f], |change, guess, [d, f]| {
+                let before = d - f;
+                *change = before - *guess;
+                *guess = before;
+            });
+            let changes = &mut self.corrections[slot][nodes.clone()];
+            nodal::each_of_two(changes, correction, [f], |change, correction, [f]| {
+                *change = f - *correction;
+                *correction = *f;
+            });
+            for j in others.clone() {
+                let other = &self.corrections[j][nodes.clone()];
+                matrix[slot][j] += nodal::dot(&self.corrections[slot][nodes.clone()], other);
+                right[j] += nodal::dot(other, f);
+            }
+        }
+        others.for_each(|j| matrix[j][slot] = matrix[slot][j]);
     }
 
-    /// Takes note of the last `correction` [m] of the `bodies`, which led to the `motion` [m] so far.
-    pub fn take_note(&mut self, bodies: &[usize], last: &Last<'_, D>, nodes: impl Fn(usize) -> Range<usize>) {
+    /// Takes note of the last correction [m] of the `bodies` of an assembly.
+    pub fn take_note(&mut self, bodies: &[usize], assembly: &Assembly<D>, last: &Last<'_, D>) {
         for &i in bodies {
             let slow = !last.is_first && last.progress[i].contraction > CONTROL.fast;
             if last.touched[i] || slow || self.bodies[i].count > 0 {
-                self.record(i, nodes(i), last.motion, last.correction);
+                self.record(i, assembly, last);
             }
         }
     }
@@ -173,18 +179,21 @@ impl<const D: usize> Acceleration<D> {
         bodies.iter().filter(|&&i| touched[i]).for_each(|&i| together.add(&self.bodies[i].products));
         let all = (PerNode(motion), PerNode(reached));
         each_body(given.assembly, bodies, all, &|i, (motion, moved)| {
-            let nodes = given.assembly.nodes(i);
             let record = &self.bodies[i];
             let products = if touched[i] { &together } else { &record.products };
             let weights = products.weights(record.differences(), record.slot());
-            for (k, weight) in weights.into_iter().enumerate().filter(|&(_, weight)| weight != 0.0) {
-                let (guesses, corrections) =
-                    (&self.guesses[k][nodes.clone()], &self.corrections[k][nodes.clone()]);
-                nodal::each(motion.0, [guesses, corrections], |m, [d, f]| *m -= (d + f) * weight);
+            if weights.iter().all(|&weight| weight == 0.0) {
+                return;
             }
-            if weights.iter().any(|&weight| weight != 0.0) {
+            for run in given.assembly.stepped(i) {
+                let nodes = given.assembly.numbered(i, run);
+                let motion = &mut motion.0[run.clone()];
+                for (k, weight) in weights.into_iter().enumerate().filter(|&(_, weight)| weight != 0.0) {
+                    let differences = [&self.guesses[k][nodes.clone()], &self.corrections[k][nodes.clone()]];
+                    nodal::each(motion, differences, |m, [d, f]| *m -= (d + f) * weight);
+                }
                 let start = &given.state.displacement[nodes];
-                nodal::each(moved.0, [start, motion.0], |u1, [u0, d]| *u1 = u0 + d);
+                nodal::each(&mut moved.0[run.clone()], [start, motion], |u1, [u0, d]| *u1 = u0 + d);
             }
         });
     }

@@ -68,7 +68,9 @@ impl<const D: usize> Newton<D> {
     /// Begins the iterations of some `bodies` in a step from this `motion` [m].
     pub fn begin(&mut self, bodies: &[usize], assembly: &Assembly<D>, motion: &[Vector<D>]) {
         for &i in bodies {
-            self.progress[i] = BodyProgress::new(nodal::largest(&motion[assembly.nodes(i)]));
+            let runs = assembly.stepped(i).iter();
+            let runs = runs.map(|run| nodal::largest(&motion[assembly.numbered(i, run)]));
+            self.progress[i] = BodyProgress::new(runs.fold(0.0, f64::max));
         }
         self.acceleration.restart(bodies);
         self.free_motion = None;
