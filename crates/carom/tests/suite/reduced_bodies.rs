@@ -76,3 +76,14 @@ fn meeting() -> Value {
 fn a_run_of_a_reduced_body_goes_on_identically() {
     goes_on_identically::<2>(&meeting(), 3);
 }
+
+/// Invariant: a step that is repeated in halves begins as if there had been none, so that the books close as ever.
+#[test]
+fn a_reduced_body_forgets_the_step_that_failed() {
+    let mut case = meeting();
+    case["analysis"]["newton"]["max_iterations"] = json!(5);
+    let summary = run(&case).summary();
+    assert!(summary.retried_steps > 0, "no step failed");
+    let defect = summary.energy.max_defect / summary.energy.initial;
+    assert!(defect < 1e-11, "{defect:e} after {} repeated steps", summary.retried_steps);
+}
