@@ -18,6 +18,7 @@ pub(crate) struct Compliance<const D: usize> {
     generation: u64,
     /// The rotation of the body since its blocks were made.
     pub turn: Matrix<D>,
+    version: u64,
 }
 
 #[derive(Debug)]
@@ -79,13 +80,16 @@ impl<const D: usize> Compliance<D> {
             table: Table::All(Vec::new()),
             generation: 0,
             turn: Matrix::identity(),
+            version: 0,
         }
     }
 
     /// Makes sure that the blocks between `nodes` are there and belong to the present K̄. If forces are not felt `everywhere` at
     /// once, as in a static analysis, many nodes have blocks only with those around them.
     pub fn prepare(&mut self, body: &mut dyn Body<D>, nodes: &[u32], everywhere: bool) {
-        self.turn = body.turn();
+        let turn = body.turn();
+        self.version += u64::from(turn != self.turn);
+        self.turn = turn;
         if self.generation != body.generation() {
             self.clear();
             self.generation = body.generation();
@@ -163,9 +167,16 @@ impl<const D: usize> Compliance<D> {
         }
     }
 
-    fn clear(&mut self) {
+    /// Forgets all blocks.
+    pub fn clear(&mut self) {
         self.nodes.drain(..).for_each(|node| self.places[node as usize] = u32::MAX);
         self.table = Table::All(Vec::new());
+        self.version += 1;
+    }
+
+    /// Another number whenever blocks that there were, or the rotation, have become others.
+    pub fn version(&self) -> u64 {
+        self.version
     }
 
     /// The nodes that have blocks with a node that was prepared; None if all have.

@@ -9,6 +9,7 @@ use super::active::ActiveSet;
 use super::compliance::Compliance;
 use super::control::CONTROL;
 use super::coupling::Coupling;
+use super::made_of::MadeOf;
 use super::stiffened::Stiffened;
 use crate::model::assembly::Assembly;
 
@@ -21,6 +22,8 @@ pub(crate) struct Delassus<const D: usize> {
     pub stiffened: Stiffened<D>,
     /// Rows of W on their way to the problem.
     rows: Vec<Row<D>>,
+    /// What W of the problem was made of last.
+    made_of: MadeOf<D>,
     /// One of them, complete.
     for_row: Vec<(usize, Matrix<D>)>,
     /// What of W stands in for the compliance of directions that are held, contact by contact [m/N]: nothing moves by it.
@@ -55,12 +58,18 @@ impl<const D: usize> Delassus<D> {
             coupling: Coupling::new(assembly.node_count(), assembly.body_count()),
             stiffened: Stiffened::new(assembly),
             rows: Vec::new(),
+            made_of: MadeOf::nothing(),
             for_row: Vec::new(),
             stand_ins: Vec::new(),
         }
     }
 
-    /// Writes W, q and μ of the contacts to `problem`.
+    /// Says that W of the next problem is not that of the last one.
+    pub fn begin_anew(&mut self) {
+        self.made_of.forget();
+    }
+
+    /// Writes W, q and μ of the contacts to `problem`, which has W of the last call unless [`Self::begin_anew`] was called since.
     ///
     /// `motion` is the nodal motion d that the step would make with the reactions known so far, and q what W leaves of it without them. Once
     /// these no longer change, the law holds for the motion itself, however accurate W is. `offsets` are what the motions lack of
@@ -73,15 +82,47 @@ impl<const D: usize> Delassus<D> {
         motion: &[Vector<D>],
         problem: &mut ContactProblem<D>,
     ) {
+        let ActiveSet { contacts, reactions, .. } = active;
+        problem.mu.clear();
+        problem.mu.extend_from_slice(&active.friction);
+        problem.q.resize(contacts.len(), Vector::zeros());
+        let tangent = &self.stiffened;
+        each_group(&mut problem.q, ROWS, |first, q| {
+            for (i, q) in (first..).zip(q) {
+                *q = contacts[i].relative(|n| motion[n]) + offsets[i];
+                if tangent.leaves_out() {
+                    *q += tangent.unseen(i);
+                }
+            }
+        });
+        if tangent.is_needed() || !self.made_of.is(contacts, &self.compliances) {
+            self.couple(assembly, active, motion, problem);
+            if self.stiffened.is_needed() {
+                self.made_of.forget();
+            } else {
+                self.made_of.take_note(assembly, contacts, &self.compliances);
+            }
+        }
+        let ContactProblem { w, q, .. } = problem;
+        each_group(q, ROWS, |first, q| {
+            (first..).zip(q).for_each(|(i, q)| *q -= w.row_times(i, reactions));
+        });
+    }
+
+    /// Writes W of the contacts to `problem`, whose q are the motions, and adds to these what stands in for what supports hold.
+    fn couple(
+        &mut self,
+        assembly: &Assembly<D>,
+        active: &ActiveSet<D>,
+        motion: &[Vector<D>],
+        problem: &mut ContactProblem<D>,
+    ) {
         let stiffened = self.stiffened.is_needed();
         let leaves_out = self.stiffened.leaves_out();
-        let Self { compliances, coupling, rows, for_row, stand_ins, stiffened: tangent } = self;
+        let Self { compliances, coupling, rows, for_row, stand_ins, stiffened: tangent, .. } = self;
         stand_ins.clear();
         let ActiveSet { contacts, reactions, .. } = active;
         problem.w.clear();
-        problem.q.clear();
-        problem.mu.clear();
-        problem.mu.extend_from_slice(&active.friction);
         coupling.list(assembly, contacts);
         let make = |i: usize, Row { partners, blocks }: &mut Row<D>| {
             let row = &contacts[i];
@@ -114,12 +155,6 @@ impl<const D: usize> Delassus<D> {
                 (first + offset..).zip(rows).for_each(|(i, row)| make(i, row));
             });
             for ((i, contact), row) in (first..).zip(of_batch).zip(&*rows) {
-                let mut q = contact.relative(|n| motion[n]);
-                q += offsets[i];
-                if leaves_out {
-                    q += tangent.unseen(i);
-                }
-                problem.q.push(q);
                 let partners = row.partners.iter().map(|&j| j as usize).zip(&row.blocks);
                 let w = &problem.w;
                 // W is symmetric, also where round-off is not, unless rows leave something out.
@@ -132,7 +167,7 @@ impl<const D: usize> Delassus<D> {
                 stand_ins.push(Matrix::zeros());
                 for (_, block) in for_row.iter_mut().filter(|(j, _)| *j == i) {
                     // A stand-in, which moves nothing: it has no part in the motion.
-                    let support = support(assembly, contact, &q, motion, block);
+                    let support = support(assembly, contact, &problem.q[i], motion, block);
                     problem.q[i] += support * reactions[i];
                     *block += support;
                     stand_ins[i] = support;
@@ -141,10 +176,6 @@ impl<const D: usize> Delassus<D> {
             }
         }
         coupling.forget(assembly, contacts);
-        let ContactProblem { w, q, .. } = problem;
-        each_group(q, ROWS, |first, q| {
-            (first..).zip(q).for_each(|(i, q)| *q -= w.row_times(i, reactions));
-        });
     }
 }
 

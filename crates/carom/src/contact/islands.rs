@@ -60,6 +60,7 @@ impl<const D: usize> Island<D> {
         exchange(active, own);
         std::mem::swap(solved_by, &mut reduced.solved_by);
         std::mem::swap(problem, &mut reduced.problem);
+        reduced.delassus.begin_anew();
         std::mem::swap(offsets, &mut reduced.offsets);
         std::mem::swap(guess, &mut reduced.guess);
     }
@@ -160,7 +161,8 @@ impl<const D: usize> Islands<D> {
 
     /// Makes the contact problem of all of those of the islands.
     fn gather_problems(&self, whole: &mut Reduced<D>) {
-        let Reduced { problem, offsets, guess, .. } = whole;
+        let Reduced { delassus, problem, offsets, guess, .. } = whole;
+        delassus.begin_anew();
         problem.w.clear();
         problem.q.clear();
         problem.mu.clear();
@@ -255,6 +257,7 @@ impl<const D: usize> Islands<D> {
     pub fn give_up(&mut self, island: usize, active: &mut ActiveSet<D>, reduced: &mut Reduced<D>) {
         if self.is_divided() {
             std::mem::swap(&mut self.all[island].problem, &mut reduced.problem);
+            reduced.delassus.begin_anew();
             std::mem::swap(&mut self.all[island].guess, &mut reduced.guess);
             exchange(active, &mut self.whole);
         }

@@ -14,6 +14,7 @@ pub(crate) mod delassus;
 mod gradients;
 mod islands;
 mod kinks;
+mod made_of;
 pub(crate) mod on_masses;
 mod pressing;
 pub(crate) mod reduced;

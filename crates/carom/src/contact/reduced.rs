@@ -230,7 +230,10 @@ impl<const D: usize> Reduced<D> {
                 solve(problem, &mut active.reactions)
             } else {
                 let mut posed = Posed { problem, guess, offsets, stand_ins: &mut delassus.stand_ins };
-                active.solve_with_laws(given, &mut posed, &mut solve)?
+                let made = active.solve_with_laws(given, &mut posed, &mut solve);
+                // Laws stretch tangents, and W with them.
+                delassus.begin_anew();
+                made?
             };
             // It ends, as what holds grows by many times.
             if !report.is_solved() || !active.hold_on(&mut self.problem, &mut self.guess) {
