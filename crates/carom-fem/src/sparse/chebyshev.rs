@@ -1,4 +1,4 @@
-use carom_mesh::parallel::each_chunk;
+use carom_mesh::parallel::{each_chunk, share, thread_count};
 use carom_mesh::{Matrix, Vector};
 
 use super::NodalMatrix;
@@ -41,17 +41,25 @@ pub(super) struct Chebyshev<const D: usize> {
     /// What forces at the reach move, once it `is_grown`.
     region: Region,
     is_grown: bool,
-    unit: Unit<D>,
-}
-
-/// Responses to unit forces.
-#[derive(Debug)]
-struct Unit<const D: usize> {
-    /// Empty until there are any; zero between two calls.
-    vectors: Vectors<D, D>,
-    region: Region,
+    /// What threads find responses to unit forces with, each its own: none until there are any.
+    units: Vec<Unit<D>>,
     /// By node that was asked for, and place of the other in the reach.
     responses: Vec<Matrix<D>>,
+}
+
+/// What responses to unit forces are found with.
+#[derive(Debug)]
+struct Unit<const D: usize> {
+    /// Zero between two calls.
+    vectors: Vectors<D, D>,
+    region: Region,
+}
+
+/// The nodes that a thread finds the responses to unit forces at.
+struct Part<'a, const D: usize> {
+    unit: &'a mut Unit<D>,
+    nodes: &'a [usize],
+    responses: &'a mut [Matrix<D>],
 }
 
 /// Terms beyond which a factor costs less time: by nested dissection it has n log n values in the plane and n^(4/3) in space. Measured where
@@ -88,15 +96,16 @@ impl<const D: usize> Chebyshev<D> {
             places: vec![u32::MAX; nodes],
             region: Region::default(),
             is_grown: false,
-            unit: Unit { vectors: Vectors::zeros(0), region: Region::default(), responses: Vec::new() },
+            units: Vec::new(),
+            responses: Vec::new(),
         }))
     }
 
     /// Memory [bytes].
     pub fn bytes(&self) -> usize {
-        let Self { matrix, whole, added, unit, .. } = self;
-        matrix.bytes()
-            + 3 * (size_of_val(&whole.b[..]) + size_of_val(&added.b[..]) + size_of_val(&unit.vectors.b[..]))
+        let Self { matrix, whole, added, units, .. } = self;
+        let of_units: usize = units.iter().map(|unit| size_of_val(&unit.vectors.b[..])).sum();
+        matrix.bytes() + 3 * (size_of_val(&whole.b[..]) + size_of_val(&added.b[..]) + of_units)
     }
 
     /// See [`super::Factor::begin`].
@@ -172,24 +181,40 @@ impl<const D: usize> Chebyshev<D> {
 
     /// See [`super::Factor::respond`].
     pub fn respond(&mut self, nodes: impl Iterator<Item = usize>) {
-        let Self { matrix, weights, alpha, unit, reach, .. } = self;
-        if unit.vectors.b.is_empty() {
-            unit.vectors = Vectors::zeros(matrix.node_count());
+        let Self { matrix, weights, alpha, units, responses, reach, .. } = self;
+        let nodes: Vec<usize> = nodes.collect();
+        responses.clear();
+        responses.resize(nodes.len() * reach.len(), Matrix::zeros());
+        if responses.is_empty() {
+            return;
         }
-        unit.responses.clear();
-        for node in nodes {
-            unit.region.grow(matrix.graph(), std::iter::once(node as u32), weights.len() - 1);
-            unit.vectors.b[node] = matrix.scale(node, &Matrix::identity());
-            solve_within(matrix, weights, *alpha, &mut unit.vectors, &unit.region);
-            let x = &unit.vectors.x;
-            unit.responses.extend(reach.iter().map(|&a| matrix.unscale(a as usize, &x[a as usize])));
-            unit.vectors.clear(unit.region.nodes());
+        let threads = thread_count().min(nodes.len());
+        while units.len() < threads {
+            units.push(Unit { vectors: Vectors::zeros(matrix.node_count()), region: Region::default() });
         }
+        let each = nodes.len().div_ceil(threads);
+        let of_each = nodes.chunks(each).zip(responses.chunks_mut(each * reach.len()));
+        let parts = units.iter_mut().zip(of_each);
+        let mut parts: Vec<Part<'_, D>> =
+            parts.map(|(unit, (nodes, responses))| Part { unit, nodes, responses }).collect();
+        let respond = |_: usize, parts: &mut [Part<'_, D>]| {
+            for Part { unit, nodes, responses } in parts {
+                for (&node, responses) in nodes.iter().zip(responses.chunks_mut(reach.len())) {
+                    unit.solve(node, matrix, weights, *alpha);
+                    let x = &unit.vectors.x;
+                    for (response, &a) in responses.iter_mut().zip(&*reach) {
+                        *response = matrix.unscale(a as usize, &x[a as usize]);
+                    }
+                    unit.vectors.clear(unit.region.nodes());
+                }
+            }
+        };
+        if threads == 1 { respond(0, &mut parts) } else { share(&mut parts, 1, &respond) }
     }
 
     /// See [`super::Factor::response`].
     pub fn response(&self, number: usize, node: usize) -> Matrix<D> {
-        self.unit.responses[number * self.reach.len() + self.places[node] as usize]
+        self.responses[number * self.reach.len() + self.places[node] as usize]
     }
 
     fn solve_whole(&mut self) {
@@ -211,6 +236,16 @@ impl<const D: usize> Chebyshev<D> {
         }
         added.clear(region.nodes());
         self.has_added = false;
+    }
+}
+
+impl<const D: usize> Unit<D> {
+    /// Solves for unit forces at a node: what they move is the region.
+    fn solve(&mut self, node: usize, matrix: &Scaled<D>, weights: &[f32], alpha: f32) {
+        let Self { vectors, region } = self;
+        region.grow(matrix.graph(), std::iter::once(node as u32), weights.len() - 1);
+        vectors.b[node] = matrix.scale(node, &Matrix::identity());
+        solve_within(matrix, weights, alpha, vectors, region);
     }
 }
 
@@ -369,5 +404,16 @@ mod tests {
         let one = solve(1);
         assert_eq!(solve(2), one);
         assert_eq!(solve(3), one);
+        let nodes = [0, 700, 5000, 9000, 17_000];
+        inverse.set_reach(nodes.into_iter());
+        let mut respond = |threads| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
+            pool.install(|| inverse.respond(nodes[..4].iter().copied()));
+            inverse.responses.clone()
+        };
+        let one = respond(1);
+        assert_eq!(one.len(), 20);
+        assert_eq!(respond(2), one);
+        assert_eq!(respond(3), one);
     }
 }
