@@ -90,16 +90,13 @@ impl<const D: usize, const S: usize, const N: usize, K: Kinematics<D, S>> Elemen
     }
 
     fn add_stiffness(&self, u: &[Vector<D>], past: Past<'_>, k: &mut NodalMatrix<Matrix<D>>) {
-        let mut f = Batch::zeros();
-        let mut tangents: Vec<Tangent<S>> = vec![[[[[0.0; S]; S]; S]; S]; self.grid.batch()];
-        for pack in 0..self.grid.packs() {
-            self.grid.deform_elastically(pack, u, past.growth, &mut f);
-            self.law.tangents(self.grid.batch(), &f, self.grid.part(pack, past.history), &mut tangents);
-            for (lane, cell) in self.grid.cells(pack).enumerate() {
-                let of_cell = self.grid.points(lane).map(|q| &tangents[q]);
-                self.grid.scatter(cell, &self.grid.local_stiffness(pack, lane, of_cell), k);
-            }
-        }
+        let tangents = || vec![[[[[0.0; S]; S]; S]; S]; self.grid.batch()];
+        let scratch = || -> (Batch<S>, Vec<Tangent<S>>) { (Batch::zeros(), tangents()) };
+        self.grid.assemble_matrix(k, scratch, |pack, (f, tangents), locals| {
+            self.grid.deform_elastically(pack, u, past.growth, f);
+            self.law.tangents(self.grid.batch(), f, self.grid.part(pack, past.history), tangents);
+            self.grid.write_stiffness(pack, tangents, locals);
+        });
     }
 
     fn cell_states(&self, u: &[Vector<D>], past: Past<'_>, out: &mut Vec<CellState>) {

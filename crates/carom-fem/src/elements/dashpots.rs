@@ -46,10 +46,10 @@ impl<const D: usize, const S: usize, const N: usize, K: Kinematics<D, S>> Dashpo
     }
 
     fn add_damping(&self, u: &[Vector<D>], c: &mut NodalMatrix<Matrix<D>>) {
-        let mut f = Batch::zeros();
-        let mut tangents: Vec<Tangent<S>> = vec![[[[[0.0; S]; S]; S]; S]; self.grid.batch()];
-        for pack in 0..self.grid.packs() {
-            self.grid.deform(pack, u, &mut f);
+        let tangents = || vec![[[[[0.0; S]; S]; S]; S]; self.grid.batch()];
+        let scratch = || -> (Batch<S>, Vec<Tangent<S>>) { (Batch::zeros(), tangents()) };
+        self.grid.assemble_matrix(c, scratch, |pack, (f, tangents), locals| {
+            self.grid.deform(pack, u, f);
             for (q, tangent) in tangents.iter_mut().enumerate() {
                 let f = if self.objective { embed(&f.get(q)) } else { Matrix::identity() };
                 let full = self.viscosity.tangent(&f);
@@ -59,10 +59,7 @@ impl<const D: usize, const S: usize, const N: usize, K: Kinematics<D, S>> Dashpo
                     })
                 });
             }
-            for (lane, cell) in self.grid.cells(pack).enumerate() {
-                let of_cell = self.grid.points(lane).map(|q| &tangents[q]);
-                self.grid.scatter(cell, &self.grid.local_stiffness(pack, lane, of_cell), c);
-            }
-        }
+            self.grid.write_stiffness(pack, tangents, locals);
+        });
     }
 }

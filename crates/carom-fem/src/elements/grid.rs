@@ -1,6 +1,6 @@
 use std::marker::PhantomData;
 
-use carom_mesh::parallel::has_threads;
+use carom_mesh::parallel::{has_threads, share};
 use carom_mesh::{Matrix, Vector};
 use pulp::{Arch, Simd, WithSimd};
 
@@ -11,6 +11,10 @@ use crate::quadrature::Integrand;
 use crate::shape_table::{Cells, ShapeTable};
 use crate::sparse::{NodalMatrix, NodeGraph};
 use crate::{FemError, Growth};
+
+/// Packs whose matrices a thread makes at a time, and so many times as many are made before they are added up.
+const PACKS: usize = 4;
+const GROUPS: usize = 16;
 
 /// Cells with `N` nodes and their quadrature points, whatever their law: [`LANES`] cells side by side in a pack.
 ///
@@ -237,8 +241,14 @@ impl<const D: usize, const S: usize, const N: usize, K: Kinematics<D, S>> Grid<D
         self.arch.dispatch(Forces { grid: self, pack, stresses, local });
     }
 
-    /// The stiffness of `tangents`, one per point of the cell in a lane.
-    pub fn local_stiffness<'t>(
+    /// Writes the stiffness of the cells of a pack, one per lane, for `tangents` at all of its points.
+    pub fn write_stiffness(&self, pack: usize, tangents: &[Tangent<S>], locals: &mut [[[Matrix<D>; N]; N]]) {
+        for (lane, local) in locals.iter_mut().enumerate() {
+            *local = self.local_stiffness(pack, lane, self.points(lane).map(|q| &tangents[q]));
+        }
+    }
+
+    fn local_stiffness<'t>(
         &self,
         pack: usize,
         lane: usize,
@@ -259,12 +269,34 @@ impl<const D: usize, const S: usize, const N: usize, K: Kinematics<D, S>> Grid<D
         local
     }
 
-    /// Adds the matrix of one cell to `k`.
-    #[inline]
-    pub fn scatter(&self, cell: usize, local: &[[Matrix<D>; N]; N], k: &mut NodalMatrix<Matrix<D>>) {
-        for (entries, row) in self.entries[cell].iter().zip(local) {
-            for (&entry, block) in entries.iter().zip(row) {
-                k.values[entry as usize] += block;
+    /// Adds the matrices of all cells to `k`, in their order: `of_pack` writes those of the cells of a pack, with `scratch`. Threads share what it does.
+    pub fn assemble_matrix<W>(
+        &self,
+        k: &mut NodalMatrix<Matrix<D>>,
+        scratch: impl Fn() -> W + Sync,
+        of_pack: impl Fn(usize, &mut W, &mut [[[Matrix<D>; N]; N]]) + Sync,
+    ) {
+        let at_once = if has_threads() { PACKS * GROUPS } else { 1 }.min(self.packs());
+        let mut locals = vec![[[Matrix::zeros(); N]; N]; at_once * LANES];
+        let mut own = scratch();
+        let make = |work: &mut W, first: usize, locals: &mut [[[Matrix<D>; N]; N]]| {
+            for (pack, locals) in (first..self.packs()).zip(locals.chunks_mut(LANES)) {
+                of_pack(pack, work, &mut locals[..self.cells(pack).len()]);
+            }
+        };
+        for first in (0..self.packs()).step_by(at_once.max(1)) {
+            if at_once > PACKS {
+                share(&mut locals, PACKS * LANES, &|of_locals, locals| {
+                    make(&mut scratch(), first + of_locals / LANES, locals);
+                });
+            } else {
+                make(&mut own, first, &mut locals);
+            }
+            let cells = first * LANES..self.cells.min((first + at_once) * LANES);
+            for (entries, local) in self.entries[cells].iter().zip(&locals) {
+                for (&entry, block) in entries.as_flattened().iter().zip(local.as_flattened()) {
+                    k.values[entry as usize] += block;
+                }
             }
         }
     }

@@ -209,20 +209,19 @@ impl<const D: usize, const N: usize, K: Kinematics<D, 3>> Elements<D> for MeanDi
     }
 
     fn add_stiffness(&self, u: &[Vector<D>], past: Past<'_>, k: &mut NodalMatrix<Matrix<D>>) {
-        let (mut f, mut modified, mut stresses) = (Batch::zeros(), Batch::zeros(), Batch::zeros());
-        let (mut swelling, mut pressing) = (Batch::zeros(), Batch::zeros());
-        let (mut n, mut g) = (Grid::<D, 3, N, K>::NOWHERE, Grid::<D, 3, N, K>::NOWHERE);
-        let mut tangents: Vec<Tangent<3>> = vec![[[[[0.0; 3]; 3]; 3]; 3]; self.grid.batch()];
-        for pack in 0..self.grid.packs() {
-            self.grid.deform_elastically(pack, u, past.growth, &mut f);
-            self.modify(pack, &f, &mut modified);
+        let tangents = || vec![[[[[0.0; 3]; 3]; 3]; 3]; self.grid.batch()];
+        let scratch = || -> ([Batch<3>; 5], Vec<Tangent<3>>) { ([const { Batch::zeros() }; 5], tangents()) };
+        self.grid.assemble_matrix(k, scratch, |pack, (batches, tangents), locals| {
+            let [f, modified, stresses, swelling, pressing] = batches;
+            self.grid.deform_elastically(pack, u, past.growth, f);
+            self.modify(pack, f, modified);
             let history = self.grid.part(pack, past.history);
-            self.law.stresses(self.grid.batch(), &modified, history, &mut stresses);
-            self.law.tangents(self.grid.batch(), &modified, history, &mut tangents);
+            self.law.stresses(self.grid.batch(), modified, history, stresses);
+            self.law.tangents(self.grid.batch(), modified, history, tangents);
             let couplings: Vec<_> = self
-                .lanes(pack, &f)
+                .lanes(pack, f)
                 .map(|lane| {
-                    let (modified, stresses) = (lane.take(&modified), lane.take(&stresses));
+                    let (modified, stresses) = (lane.take(modified), lane.take(stresses));
                     let (mut swells, mut presses) = (zeros(), zeros());
                     let mut own: Vec<_> = (0..lane.count).map(|q| tangents[lane.at(q)]).collect();
                     let coupling = lane.cell().tangents(
@@ -233,17 +232,16 @@ impl<const D: usize, const N: usize, K: Kinematics<D, 3>> Elements<D> for MeanDi
                         &mut presses,
                     );
                     own.iter().enumerate().for_each(|(q, tangent)| tangents[lane.at(q)] = *tangent);
-                    lane.put(&swells, &mut swelling);
-                    lane.put(&presses, &mut pressing);
+                    lane.put(&swells, swelling);
+                    lane.put(&presses, pressing);
                     coupling
                 })
                 .collect();
-            self.grid.local_forces(pack, &swelling, &mut n);
-            self.grid.local_forces(pack, &pressing, &mut g);
-            for (lane, cell) in self.grid.cells(pack).enumerate() {
-                let of_cell = self.grid.points(lane).map(|q| &tangents[q]);
-                let mut local = self.grid.local_stiffness(pack, lane, of_cell);
-                let coupling = &couplings[lane];
+            let (mut n, mut g) = (Grid::<D, 3, N, K>::NOWHERE, Grid::<D, 3, N, K>::NOWHERE);
+            self.grid.local_forces(pack, swelling, &mut n);
+            self.grid.local_forces(pack, pressing, &mut g);
+            self.grid.write_stiffness(pack, tangents, locals);
+            for (lane, (local, coupling)) in locals.iter_mut().zip(&couplings).enumerate() {
                 let vector = |all: &[[f64; LANES]; D]| Vector::<D>::from_fn(|i, _| all[i][lane]);
                 for a in 0..N {
                     for b in 0..N {
@@ -253,9 +251,8 @@ impl<const D: usize, const N: usize, K: Kinematics<D, 3>> Elements<D> for MeanDi
                             + n_a * n_b.transpose() * coupling.stiffness;
                     }
                 }
-                self.grid.scatter(cell, &local, k);
             }
-        }
+        });
     }
 
     fn cell_states(&self, u: &[Vector<D>], past: Past<'_>, out: &mut Vec<CellState>) {

@@ -27,5 +27,6 @@ pub use factor::Factor;
 pub use graph::NodeGraph;
 pub use inverse::Inverse;
 pub use nodal_matrix::NodalMatrix;
+pub use region::Region;
 pub use shared::Sharing;
 pub use triangular::Precision;

@@ -2,7 +2,7 @@ use super::NodeGraph;
 
 /// Nodes around others in a graph, ring by ring.
 #[derive(Debug, Default)]
-pub(super) struct Region {
+pub struct Region {
     /// Ascending within a ring.
     nodes: Vec<u32>,
     /// Where each ring ends; the first is that of the nodes in the middle.
@@ -39,11 +39,13 @@ impl Region {
     }
 
     /// Its nodes up to the given ring; all of them beyond the last.
+    #[must_use]
     pub fn up_to(&self, ring: usize) -> &[u32] {
         &self.nodes[..self.ends[ring.min(self.ends.len() - 1)]]
     }
 
-    /// Its nodes.
+    /// Its nodes, ring by ring.
+    #[must_use]
     pub fn nodes(&self) -> &[u32] {
         &self.nodes
     }

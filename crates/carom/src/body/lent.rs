@@ -76,7 +76,7 @@ impl<const D: usize> Body<D> for Lent {
         elsewhere()
     }
 
-    fn near(&self, _: u32) -> Option<Vec<u32>> {
+    fn near(&mut self, _: u32) -> Option<Vec<u32>> {
         elsewhere()
     }
 

@@ -423,7 +423,7 @@ pub trait Body<const D: usize>: Send + Sync {
     }
 
     /// The nodes of the surface that feel a force at `node` within a step, itself among them, ascending; none if all do.
-    fn near(&self, _node: u32) -> Option<Vec<u32>> {
+    fn near(&mut self, _node: u32) -> Option<Vec<u32>> {
         None
     }
 

@@ -15,7 +15,7 @@ pub(crate) mod supports;
 use std::sync::Arc;
 
 use carom_fem::material::PlasticState;
-use carom_fem::sparse::Inverse;
+use carom_fem::sparse::{Inverse, Region};
 use carom_fem::{MassSolver, Vibration};
 use carom_mesh::{Matrix, Vector, nodal, tensor};
 
@@ -62,6 +62,8 @@ pub(crate) struct FeBody<const D: usize> {
     middle: Vec<Vector<D>>,
     /// How stiff nodes are [N/m]; empty until somebody asks.
     node_stiffness: Vec<f64>,
+    /// The nodes near one of the surface.
+    region: Region,
     /// The residual at the end of a step [N]; empty where nothing is held.
     residual: Vec<Vector<D>>,
     /// v₊ − v [m/s], and M times it or M v₊.
@@ -84,6 +86,7 @@ impl<const D: usize> FeBody<D> {
             mass_solver: MassSolver::default(),
             nodal_inertia: inertia_of_tied_nodes(&part.body),
             node_stiffness: Vec::new(),
+            region: Region::default(),
             residual: held,
             middle: zeros.clone(),
             jump: zeros.clone(),
@@ -517,16 +520,13 @@ impl<const D: usize> Body<D> for FeBody<D> {
     }
 
     /// Ring by ring those that share a cell with others found so far, also by ways that lead through the inside.
-    fn near(&self, node: u32) -> Option<Vec<u32>> {
-        let graph = self.part.body.graph();
+    fn near(&mut self, node: u32) -> Option<Vec<u32>> {
         let surface = self.part.body.surface().nodes();
-        let mut found = vec![node];
-        for _ in 0..RINGS {
-            found = found.iter().flat_map(|&n| graph.row(n as usize).map(|(_, m)| m as u32)).collect();
-            found.sort_unstable();
-            found.dedup();
-        }
-        found.retain(|&n| n == node || surface.binary_search(&n).is_ok());
+        self.region.grow(self.part.body.graph(), std::iter::once(node), RINGS);
+        let touching = self.region.nodes().iter().copied();
+        let mut found: Vec<u32> =
+            touching.filter(|&n| n == node || surface.binary_search(&n).is_ok()).collect();
+        found.sort_unstable();
         Some(found)
     }
 
