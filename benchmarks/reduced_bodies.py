@@ -1,6 +1,7 @@
 """Reduced bodies against whole ones: a steel bar that hits a wall askew, and a part of Gmsh.
 
     .venv/bin/python benchmarks/reduced_bodies.py [modes | part | speed] [divisions along the bar]
+    RAYON_NUM_THREADS=1 .venv/bin/python benchmarks/reduced_bodies.py speed
 
 Prints
 
