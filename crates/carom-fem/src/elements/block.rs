@@ -6,7 +6,7 @@ use super::grid::Grid;
 use super::kinematics::Kinematics;
 use super::{CellState, Elements, Past, StepForces};
 use crate::Growth;
-use crate::material::{BATCH, Batch, Mat3, PlasticState, PointLaw, Tangent, embed, green_lagrange};
+use crate::material::{BATCH, Batch, Mat3, PlasticState, PointLaw, embed, green_lagrange};
 use crate::sparse::NodalMatrix;
 
 /// Elements whose points follow their law one by one.
@@ -90,8 +90,7 @@ impl<const D: usize, const S: usize, const N: usize, K: Kinematics<D, S>> Elemen
     }
 
     fn add_stiffness(&self, u: &[Vector<D>], past: Past<'_>, k: &mut NodalMatrix<Matrix<D>>) {
-        let tangents = || vec![[[[[0.0; S]; S]; S]; S]; self.grid.batch()];
-        let scratch = || -> (Batch<S>, Vec<Tangent<S>>) { (Batch::zeros(), tangents()) };
+        let scratch = || (Batch::zeros(), self.grid.tangents());
         self.grid.assemble_matrix(k, scratch, |pack, (f, tangents), locals| {
             self.grid.deform_elastically(pack, u, past.growth, f);
             self.law.tangents(self.grid.batch(), f, self.grid.part(pack, past.history), tangents);

@@ -7,7 +7,7 @@ use carom_mesh::{Matrix, Vector};
 use super::grid::Grid;
 use super::kinematics::Kinematics;
 use crate::Growth;
-use crate::material::{Batch, Tangent, Viscosity, embed, restrict};
+use crate::material::{Batch, Viscosity, embed, restrict};
 use crate::sparse::NodalMatrix;
 
 /// The viscosity of one block of cells; `u` and `f` hold one vector per node of the body.
@@ -46,8 +46,7 @@ impl<const D: usize, const S: usize, const N: usize, K: Kinematics<D, S>> Dashpo
     }
 
     fn add_damping(&self, u: &[Vector<D>], c: &mut NodalMatrix<Matrix<D>>) {
-        let tangents = || vec![[[[[0.0; S]; S]; S]; S]; self.grid.batch()];
-        let scratch = || -> (Batch<S>, Vec<Tangent<S>>) { (Batch::zeros(), tangents()) };
+        let scratch = || (Batch::zeros(), self.grid.tangents());
         self.grid.assemble_matrix(c, scratch, |pack, (f, tangents), locals| {
             self.grid.deform(pack, u, f);
             for (q, tangent) in tangents.iter_mut().enumerate() {

@@ -14,7 +14,7 @@ use crate::{FemError, Growth};
 
 /// Packs whose matrices a thread makes at a time, and so many times as many are made before they are added up.
 const PACKS: usize = 4;
-const GROUPS: usize = 16;
+const GROUPS: usize = 8;
 
 /// Cells with `N` nodes and their quadrature points, whatever their law: [`LANES`] cells side by side in a pack.
 ///
@@ -241,6 +241,11 @@ impl<const D: usize, const S: usize, const N: usize, K: Kinematics<D, S>> Grid<D
         self.arch.dispatch(Forces { grid: self, pack, stresses, local });
     }
 
+    /// Room for the tangents of a pack.
+    pub fn tangents(&self) -> Vec<Tangent<S>> {
+        vec![[[[[0.0; S]; S]; S]; S]; self.batch()]
+    }
+
     /// Writes the stiffness of the cells of a pack, one per lane, for `tangents` at all of its points.
     pub fn write_stiffness(&self, pack: usize, tangents: &[Tangent<S>], locals: &mut [[[Matrix<D>; N]; N]]) {
         for (lane, local) in locals.iter_mut().enumerate() {
@@ -276,7 +281,9 @@ impl<const D: usize, const S: usize, const N: usize, K: Kinematics<D, S>> Grid<D
         scratch: impl Fn() -> W + Sync,
         of_pack: impl Fn(usize, &mut W, &mut [[[Matrix<D>; N]; N]]) + Sync,
     ) {
-        let at_once = if has_threads() { PACKS * GROUPS } else { 1 }.min(self.packs());
+        // Of few cells threads have no part in forces either.
+        let is_shared = has_threads() && self.staging.is_some();
+        let at_once = if is_shared { PACKS * GROUPS } else { 1 };
         let mut locals = vec![[[Matrix::zeros(); N]; N]; at_once * LANES];
         let mut own = scratch();
         let make = |work: &mut W, first: usize, locals: &mut [[[Matrix<D>; N]; N]]| {
@@ -284,8 +291,8 @@ impl<const D: usize, const S: usize, const N: usize, K: Kinematics<D, S>> Grid<D
                 of_pack(pack, work, &mut locals[..self.cells(pack).len()]);
             }
         };
-        for first in (0..self.packs()).step_by(at_once.max(1)) {
-            if at_once > PACKS {
+        for first in (0..self.packs()).step_by(at_once) {
+            if is_shared {
                 share(&mut locals, PACKS * LANES, &|of_locals, locals| {
                     make(&mut scratch(), first + of_locals / LANES, locals);
                 });

@@ -9,9 +9,7 @@ use super::{CellState, Elements, Past, StepForces};
 use crate::Growth;
 use crate::material::control::CONTROL;
 use crate::material::discrete_gradient::{deformation, second_piola, stress_difference};
-use crate::material::{
-    BATCH, Batch, LANES, MAX_POINTS, Mat3, PlasticState, PointLaw, Tangent, embed, green_lagrange,
-};
+use crate::material::{BATCH, Batch, LANES, MAX_POINTS, Mat3, PlasticState, PointLaw, embed, green_lagrange};
 use crate::sparse::NodalMatrix;
 
 /// Elements whose points share one change of volume per cell: see [`super::dilatation`].
@@ -209,8 +207,7 @@ impl<const D: usize, const N: usize, K: Kinematics<D, 3>> Elements<D> for MeanDi
     }
 
     fn add_stiffness(&self, u: &[Vector<D>], past: Past<'_>, k: &mut NodalMatrix<Matrix<D>>) {
-        let tangents = || vec![[[[[0.0; 3]; 3]; 3]; 3]; self.grid.batch()];
-        let scratch = || -> ([Batch<3>; 5], Vec<Tangent<3>>) { ([const { Batch::zeros() }; 5], tangents()) };
+        let scratch = || ([const { Batch::zeros() }; 5], self.grid.tangents());
         self.grid.assemble_matrix(k, scratch, |pack, (batches, tangents), locals| {
             let [f, modified, stresses, swelling, pressing] = batches;
             self.grid.deform_elastically(pack, u, past.growth, f);

@@ -264,7 +264,8 @@ pub trait Body<const D: usize>: Send + Sync {
     /// The velocity at which it moves as a whole [m/s].
     fn mean_velocity(&self, velocity: &[Vector<D>]) -> Vector<D>;
 
-    /// Starts a step: `motion`, which holds free flight Δt v [m], becomes what is prescribed where it is, and a K̄ is there that fits.
+    /// Starts a step: `motion`, which holds free flight Δt v [m], becomes what is prescribed where it is, and a K̄ is there that fits. Here as in what
+    /// follows only those nodes count that [iterations move](crate::Assembly::stepped).
     ///
     /// # Errors
     /// If what is prescribed is not finite or K̄ cannot be factorised.

@@ -1,7 +1,7 @@
 use std::ops::Range;
 
 use carom_contact::{Boundaries, Candidate, Contact, ContactModel, Pair, Positions, Site, Solid, Target};
-use carom_mesh::{Surface, Vector};
+use carom_mesh::{Surface, Vector, nodal};
 
 use crate::model::bearing::Bearing;
 use crate::model::cohesion::Cohesions;
@@ -43,7 +43,7 @@ pub struct Member<const D: usize> {
     pub turns: bool,
     /// Its nodes on an axis of revolution.
     pub axis: Vec<u32>,
-    /// Its nodes, ascending, that iterations of a step move one by one, where others follow these; empty where all are.
+    /// Its nodes, each once and ascending, that iterations of a step move, where the body itself says where the others are; empty where all are.
     pub stepped: Vec<u32>,
 }
 
@@ -240,7 +240,8 @@ impl<const D: usize> Assembly<D> {
         self.nodes[index].clone()
     }
 
-    /// The nodes of body `index` that iterations of a step move, in runs, as numbered in the body. All others follow them at the end of a step.
+    /// The nodes of body `index` that iterations of a step move, in runs, as numbered in the body. Where the others are is the body's own business: some
+    /// it places at the end of a step, and the rest when somebody looks.
     #[inline]
     #[must_use]
     pub fn stepped(&self, index: usize) -> &[Range<usize>] {
@@ -252,6 +253,12 @@ impl<const D: usize> Assembly<D> {
     pub(crate) fn numbered(&self, index: usize, run: &Range<usize>) -> Range<usize> {
         let first = self.nodes[index].start;
         first + run.start..first + run.end
+    }
+
+    /// The largest component of `vectors`, which are of all nodes of the model, at those of body `index` that iterations move.
+    pub(crate) fn largest(&self, index: usize, vectors: &[Vector<D>]) -> f64 {
+        let runs = self.stepped[index].iter().map(|run| nodal::largest(&vectors[self.numbered(index, run)]));
+        runs.fold(0.0, f64::max)
     }
 
     /// The name of body `index`.

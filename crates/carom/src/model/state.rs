@@ -72,7 +72,7 @@ impl<const D: usize> Reaction<D> {
 pub struct State<const D: usize> {
     /// Time [s].
     pub time: f64,
-    /// Displacements u [m].
+    /// Displacements u [m]; of nodes inside reduced bodies those of when somebody last looked, as their velocities are.
     pub displacement: Vec<Vector<D>>,
     /// Velocities v [m/s].
     pub velocity: Vec<Vector<D>>,

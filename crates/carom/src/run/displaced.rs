@@ -1,7 +1,7 @@
 //! A run that starts from bodies that are not where they are drawn.
 
 use carom_contact::{Penetration, Solid};
-use carom_mesh::Vector;
+use carom_mesh::{Vector, nodal};
 
 use crate::Simulation;
 use crate::build::cohesion::bond;
@@ -47,7 +47,7 @@ impl<const D: usize> Simulation<D> {
         stage.set_in_motion(state);
         state.refresh(&model.assembly, &self.work.iterating.bodies);
         bond(&model.assembly, state);
-        if !state.is_finite(&model.assembly) {
+        if !nodal::is_finite(displacement) || !state.is_finite(&model.assembly) {
             let message = "the energy of the initial displacements is not finite; check their unit, metres";
             return Err(InputError::new("bodies", message));
         }

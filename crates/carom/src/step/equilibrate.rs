@@ -103,7 +103,7 @@ fn approach<const D: usize>(
     work.newton.left_alone.clear();
     for iteration in 1.. {
         let late = (iteration > LOAD_STEP.late).then_some(load_step.last);
-        let moved = bodies.iter().map(|&i| nodal::largest(&work.motion[given.assembly.nodes(i)]));
+        let moved = bodies.iter().map(|&i| given.assembly.largest(i, &work.motion));
         let motion = moved.fold(0.0, f64::max);
         let solved = solve(bodies, late, given, reached, work);
         let (correction, left, reason) = match solved {

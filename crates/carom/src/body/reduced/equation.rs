@@ -122,8 +122,11 @@ impl<const D: usize> ReducedEquation<D> {
     ) {
         let Self { rigid, place, rates, compliance, bent, .. } = self;
         part.place(u, reading, place);
-        part.bend(&part.moved, &place.amplitudes, bent);
-        part.rates(&place.pose.rotation, bent, v, reading, rates);
+        for node in part.moved.iter().map(|&n| n as usize) {
+            bent[node] = part.reduction.displacement(node, &place.amplitudes);
+        }
+        let read = part.reduction.read_nodes().iter().map(|&n| bent[n as usize]);
+        part.rates(&place.pose.rotation, read, v, reading, rates);
         *rigid = Equation::new(&part.shape, map, place.pose, rates.twist);
         for (own, &k) in compliance.iter_mut().zip(part.reduction.stiffness()) {
             let damped = damping(part, k) * map.damping_coefficient();

@@ -2,7 +2,8 @@
 //!
 //! Its frame is that of mean axes, in which the vibrations have neither momentum nor angular momentum. What is of the order of its strain times its spin
 //! is left out of its inertia, so that its kinetic energy is that of a rigid body and of free vibrations. As for a [rigid](super::rigid) one nothing is
-//! stored but displacements and velocities of nodes; its place and the amplitudes are read from some of them.
+//! stored but displacements and velocities of nodes; its place and the amplitudes are read from some of them. It never rests: displacements and
+//! velocities of its other nodes do not tell whether it is still.
 
 mod books;
 mod compliance;

@@ -90,13 +90,6 @@ impl<const D: usize> ReducedPart<D> {
         self.shape.arm(node) + lift(&self.reduction.displacement(node, amplitudes))
     }
 
-    /// Writes by how much these amplitudes [m √kg] bend the body at some nodes, in its frame [m].
-    pub fn bend(&self, nodes: &[u32], amplitudes: &[f64], bent: &mut [Vector<D>]) {
-        for node in nodes.iter().map(|&n| n as usize) {
-            bent[node] = self.reduction.displacement(node, amplitudes);
-        }
-    }
-
     /// The displacement of a node [m].
     #[inline]
     pub fn displacement(&self, place: &Place, node: usize) -> Vector<D> {
@@ -156,12 +149,12 @@ impl<const D: usize> ReducedPart<D> {
         place.amplitudes.copy_from_slice(&content.amplitudes);
     }
 
-    /// Finds how the body moves where the nodes that are read have these velocities [m/s], which are of all nodes as is what vibrations have `bent` them
-    /// by in the frame of the body [m], which has this `rotation`.
+    /// Finds how the body moves where the nodes that are read have these velocities [m/s], which are of all nodes; by how much vibrations have `bent`
+    /// those that are read [m] is given one by one, in the frame of the body, which has this `rotation`.
     pub fn rates(
         &self,
         rotation: &Matrix<3>,
-        bent: &[Vector<D>],
+        bent: impl Iterator<Item = Vector<D>> + Clone,
         v: &[Vector<D>],
         reading: &mut Reading<D>,
         rates: &mut Rates,
@@ -170,9 +163,9 @@ impl<const D: usize> ReducedPart<D> {
         let Reading { local, content } = reading;
         let (mut spin, mut last) = (Vector::<3>::zeros(), f64::INFINITY);
         for _ in 0..ITERATIONS {
-            for (local, node) in local.iter_mut().zip(nodes.iter().map(|&n| n as usize)) {
-                let own = rotation.tr_mul(&lift(&v[node]));
-                *local = lower(&(own - spin.cross(&lift(&bent[node]))));
+            for ((local, &node), bent) in local.iter_mut().zip(nodes).zip(bent.clone()) {
+                let own = rotation.tr_mul(&lift(&v[node as usize]));
+                *local = lower(&(own - spin.cross(&lift(&bent))));
             }
             let turn = Vector::<3>::from(self.reduction.read_turn(local));
             let change = (turn - spin).norm();
@@ -204,9 +197,10 @@ impl<const D: usize> ReducedPart<D> {
         let mut reading = Reading::new(self);
         let (mut place, mut rates) = (Place::of(count), Rates::of(count));
         self.place(u, &mut reading, &mut place);
-        let mut bent = vec![Vector::zeros(); u.len()];
-        self.bend(self.reduction.read_nodes(), &place.amplitudes, &mut bent);
-        self.rates(&place.pose.rotation, &bent, v, &mut reading, &mut rates);
+        let nodes = self.reduction.read_nodes().iter();
+        let bent: Vec<_> =
+            nodes.map(|&n| self.reduction.displacement(n as usize, &place.amplitudes)).collect();
+        self.rates(&place.pose.rotation, bent.iter().copied(), v, &mut reading, &mut rates);
         (place, rates)
     }
 

@@ -7,7 +7,7 @@ pub(super) mod holding;
 pub(super) mod left_alone;
 pub(super) mod load_step;
 
-use carom_mesh::{Vector, nodal};
+use carom_mesh::Vector;
 
 use self::acceleration::Acceleration;
 use self::convergence::BodyProgress;
@@ -68,9 +68,7 @@ impl<const D: usize> Newton<D> {
     /// Begins the iterations of some `bodies` in a step from this `motion` [m].
     pub fn begin(&mut self, bodies: &[usize], assembly: &Assembly<D>, motion: &[Vector<D>]) {
         for &i in bodies {
-            let runs = assembly.stepped(i).iter();
-            let runs = runs.map(|run| nodal::largest(&motion[assembly.numbered(i, run)]));
-            self.progress[i] = BodyProgress::new(runs.fold(0.0, f64::max));
+            self.progress[i] = BodyProgress::new(assembly.largest(i, motion));
         }
         self.acceleration.restart(bodies);
         self.free_motion = None;
@@ -115,6 +113,6 @@ impl<const D: usize> Newton<D> {
 
     /// The largest component of the last correction of the `bodies` [m].
     pub fn largest_correction(&self, bodies: &[usize], assembly: &Assembly<D>) -> f64 {
-        bodies.iter().map(|&i| nodal::largest(&self.correction[assembly.nodes(i)])).fold(0.0, f64::max)
+        bodies.iter().map(|&i| assembly.largest(i, &self.correction)).fold(0.0, f64::max)
     }
 }
