@@ -14,6 +14,7 @@ use pyo3::types::{PyDict, PyTuple};
 use crate::dimension::{Dimension, with};
 use crate::error::{input_error, step_error};
 use crate::planted::{facets_of, rows};
+use crate::threads::detached;
 use crate::{arrays, mesh};
 
 /// What a call of a law led to: the first exception, and the time of all calls [ns].
@@ -166,7 +167,7 @@ fn build<const D: usize>(
     calls: &Arc<Calls>,
 ) -> PyResult<carom::ForeignRun<D>> {
     let parts = bodies.iter().map(|body| part(body, calls)).collect::<PyResult<_>>()?;
-    let run = py.detach(|| carom::ForeignRun::build(spec, parts, files));
+    let run = detached(py, || carom::ForeignRun::build(spec, parts, files));
     calls.take_error().map_or_else(|| run.map_err(|e| input_error(py, &e)), Err)
 }
 
@@ -195,7 +196,7 @@ impl ForeignRun {
     fn step<'py>(&mut self, py: Python<'py>, time_step: f64) -> PyResult<Bound<'py, PyDict>> {
         let Self { inner, calls } = self;
         with!(inner, run => {
-            let report = py.detach(|| run.step(time_step));
+            let report = detached(py, || run.step(time_step));
             if let Some(error) = calls.take_error() {
                 return Err(error);
             }

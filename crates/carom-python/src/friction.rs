@@ -14,6 +14,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use crate::arrays;
+use crate::threads::detached;
 
 /// W in compressed block rows, with q and μ: the arrays of `carom.friction.Problem`, checked there.
 #[derive(FromPyObject)]
@@ -163,7 +164,7 @@ fn solve<'py, const D: usize>(
 ) -> PyResult<Bound<'py, PyDict>> {
     let problem = arrays.problem::<D>()?;
     let mut r = guess(reactions, problem.len())?;
-    let report = py.detach(|| kind.solver().solve(&problem, &mut r, rule));
+    let report = detached(py, || kind.solver().solve(&problem, &mut r, rule));
     let w: Vec<Vector<D>> = (0..r.len()).map(|i| problem.motion(i, &r)).collect();
     let out = describe(py, &report)?;
     out.set_item("reactions", arrays::vectors(py, &r)?)?;

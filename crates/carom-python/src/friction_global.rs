@@ -10,6 +10,7 @@ use pyo3::types::PyDict;
 
 use crate::arrays;
 use crate::friction::{block_rows, describe, guess, kind, stopping_rule, vectors};
+use crate::threads::detached;
 
 /// M and H in compressed columns, with f, b and μ: the arrays of `carom.friction.GlobalProblem`, checked there.
 #[derive(FromPyObject)]
@@ -121,7 +122,7 @@ fn solve<'py, const D: usize>(
 ) -> PyResult<Bound<'py, PyDict>> {
     let problem = arrays.problem::<D>()?;
     let mut r = guess(reactions, problem.len())?;
-    let answer = py.detach(|| problem.solve(&mut r, method, solver, rule)).map_err(singular)?;
+    let answer = detached(py, || problem.solve(&mut r, method, solver, rule)).map_err(singular)?;
     let out = describe(py, &answer.report)?;
     out.set_item("method", answer.method.name())?;
     out.set_item("reactions", arrays::vectors(py, &r)?)?;
@@ -136,7 +137,7 @@ fn solve<'py, const D: usize>(
 pub fn condense_friction<'py>(py: Python<'py>, problem: GlobalArrays<'py>) -> PyResult<Bound<'py, PyDict>> {
     fn of<'py, const D: usize>(py: Python<'py>, arrays: &GlobalArrays<'py>) -> PyResult<Bound<'py, PyDict>> {
         let problem = arrays.problem::<D>()?;
-        let local = py.detach(|| problem.condense()).map_err(singular)?;
+        let local = detached(py, || problem.condense()).map_err(singular)?;
         let (starts, columns, blocks) = block_rows(py, &local.w)?;
         let out = PyDict::new(py);
         out.set_item("starts", starts)?;

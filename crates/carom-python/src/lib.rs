@@ -14,23 +14,19 @@ mod planted;
 mod signal;
 mod simulation;
 mod state;
+mod threads;
 
 use pyo3::prelude::*;
 
-/// How many threads share the work of this process from its first step on.
-#[pyfunction]
-fn thread_count() -> usize {
-    carom_mesh::parallel::thread_count()
-}
-
 #[pymodule]
 fn _carom(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    threads::watch_forks(module)?;
     module.add("__version__", env!("CARGO_PKG_VERSION"))?;
     module.add("CHECKPOINT_SCHEMA", carom::Checkpoint::SCHEMA)?;
     module.add_class::<simulation::Simulation>()?;
     module.add_class::<planted::PlantedContact>()?;
     module.add_class::<foreign::ForeignRun>()?;
-    module.add_function(wrap_pyfunction!(thread_count, module)?)?;
+    module.add_function(wrap_pyfunction!(threads::thread_count, module)?)?;
     module.add_function(wrap_pyfunction!(signal::signal_values, module)?)?;
     module.add_function(wrap_pyfunction!(friction::friction_solvers, module)?)?;
     module.add_function(wrap_pyfunction!(friction::solve_friction, module)?)?;

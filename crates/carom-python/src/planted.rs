@@ -11,6 +11,7 @@ use pyo3::types::PyDict;
 
 use crate::dimension::{Dimension, with};
 use crate::error::{input_error, step_error};
+use crate::threads::detached;
 use crate::{arrays, friction, mesh};
 
 /// Surfaces, obstacles and pairs, and what is known of the contacts of the present step. `carom.contact.ContactModel` checks what it is given.
@@ -152,7 +153,7 @@ impl PlantedContact {
     ) -> PyResult<()> {
         with!(&mut self.inner, planted => {
             let (points, velocity) = (rows(&points)?, rows(&velocity)?);
-            let found = py.detach(|| planted.search(&points, &velocity, time_step, reach));
+            let found = detached(py, || planted.search(&points, &velocity, time_step, reach));
             found.map_err(|e| step_error::<2>(py, &e, None))
         })
     }
@@ -165,7 +166,7 @@ impl PlantedContact {
     ) -> PyResult<Bound<'py, PyDict>> {
         with!(&mut self.inner, planted => {
             let points = rows(&points)?;
-            py.detach(|| planted.evaluate(&points));
+            detached(py, || planted.evaluate(&points));
             describe(py, planted)
         })
     }
@@ -189,7 +190,7 @@ impl PlantedContact {
                 return Err(PyValueError::new_err(format!("W has shape {:?}", w.dim())));
             }
             let block = |i: usize, j: usize| Matrix::from_fn(|a, b| w[(i * D + a, j * D + b)]);
-            match py.detach(|| planted.solve(block, &free)) {
+            match detached(py, || planted.solve(block, &free)) {
                 Ok(report) => {
                     let out = friction::describe(py, &report)?;
                     out.set_item("reactions", arrays::vectors(py, planted.reactions())?)?;
@@ -214,7 +215,7 @@ impl PlantedContact {
     fn missed(&mut self, py: Python<'_>, points: PyReadonlyArray2<'_, f64>) -> PyResult<bool> {
         with!(&mut self.inner, planted => {
             let points = rows(&points)?;
-            py.detach(|| planted.missed(&points)).map_err(|e: StepError| step_error::<2>(py, &e, None))
+            detached(py, || planted.missed(&points)).map_err(|e: StepError| step_error::<2>(py, &e, None))
         })
     }
 
@@ -231,13 +232,13 @@ impl PlantedContact {
             let step = match moving {
                 Some((velocity, mass)) => {
                     let (velocity, mut mass) = (rows(&velocity)?, Mass::new(&mass)?);
-                    let step = py.detach(|| planted.accept_moving(&points, &velocity, &mut mass));
+                    let step = detached(py, || planted.accept_moving(&points, &velocity, &mut mass));
                     if let Some(error) = mass.failed {
                         return Err(error);
                     }
                     step
                 }
-                None => py.detach(|| planted.accept(&points)),
+                None => detached(py, || planted.accept(&points)),
             };
             let out = PyDict::new(py);
             let place = |(between, _)| planted.assembly().contact.pairs.place(between) as i64;

@@ -13,6 +13,7 @@ use crate::dimension::{Dimension, with};
 use crate::engine::PythonEngine;
 use crate::error::{input_error, run_error};
 use crate::foreign::{Calls, is_error, laws};
+use crate::threads::detached;
 use crate::{arrays, checkpoint, mesh, state};
 
 /// Wall time between two looks for Ctrl-C [s]; a step that takes longer is followed by one.
@@ -57,14 +58,14 @@ impl Simulation {
                     laws: laws(foreign, &calls)?,
                     engine: PythonEngine::of(engine, &calls),
                 };
-                py.detach(|| carom::Simulation::with_inputs(&scenario, inputs)).map(Dimension::Space)
+                detached(py, || carom::Simulation::with_inputs(&scenario, inputs)).map(Dimension::Space)
             }
             // No surface is an obstacle of the plane: the build refuses what says so.
             _ => {
                 let (meshes, laws) = (mesh::meshes(py, meshes)?, laws(foreign, &calls)?);
                 let engine = PythonEngine::of(engine, &calls);
                 let inputs = Inputs { laws, engine, ..Inputs::from(meshes) };
-                py.detach(|| carom::Simulation::with_inputs(&scenario, inputs)).map(Dimension::Plane)
+                detached(py, || carom::Simulation::with_inputs(&scenario, inputs)).map(Dimension::Plane)
             }
         };
         if let Some(error) = calls.take_error() {
@@ -270,7 +271,7 @@ impl Simulation {
                 return Err(PyValueError::new_err("steps were made already"));
             }
             let velocity = arrays::from_rows(&velocity, run.model().node_count())?;
-            py.detach(|| run.set_initial_velocity(velocity));
+            detached(py, || run.set_initial_velocity(velocity));
         });
         Ok(())
     }
@@ -286,7 +287,7 @@ impl Simulation {
                 return Err(PyValueError::new_err("steps were made already"));
             }
             let displacement = arrays::from_rows(&displacement, run.model().node_count())?;
-            py.detach(|| run.set_initial_displacement(&displacement)).map_err(|e| input_error(py, &e))
+            detached(py, || run.set_initial_displacement(&displacement)).map_err(|e| input_error(py, &e))
         })
     }
 
@@ -297,7 +298,7 @@ impl Simulation {
             if run.step() > 0 {
                 return Err(PyValueError::new_err("steps were made already"));
             }
-            py.detach(|| run.start_from(&checkpoint))
+            detached(py, || run.start_from(&checkpoint))
         });
         done.map_err(|e| PyValueError::new_err(e.to_string()))
     }
@@ -331,7 +332,7 @@ impl Simulation {
     /// Goes on from such arrays; ValueError if they are not of this scenario.
     fn restore(&mut self, py: Python<'_>, arrays: &Bound<'_, PyDict>) -> PyResult<()> {
         let checkpoint = checkpoint::from_python(arrays)?;
-        let done = with!(&mut self.inner, run => py.detach(|| run.restore(&checkpoint)));
+        let done = with!(&mut self.inner, run => detached(py, || run.restore(&checkpoint)));
         done.map_err(|e| PyValueError::new_err(e.to_string()))
     }
 
@@ -360,7 +361,7 @@ fn advance<const D: usize>(
     calls: &Calls,
     (until, budget): (f64, f64),
 ) -> PyResult<bool> {
-    let (outcome, interrupt) = py.detach(|| {
+    let (outcome, interrupt) = detached(py, || {
         let start = Instant::now();
         let mut last_look = 0.0;
         let mut interrupt = None;
