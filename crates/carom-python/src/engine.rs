@@ -6,7 +6,7 @@ use carom::Engine;
 use carom_fem::{FemError, MatrixPart, RankSolver, Ranks, Share};
 use numpy::{Element, PyArray1, PyArrayMethods, PyReadonlyArray1};
 use pyo3::prelude::*;
-use pyo3::types::PyList;
+use pyo3::types::{PyList, PySlice};
 
 use crate::foreign::Calls;
 
@@ -48,7 +48,7 @@ impl Engine for PythonEngine {
             let owns: Arc<[bool]> = owns.as_array().iter().copied().collect();
             let is_first = part.getattr("is_first")?.extract()?;
             let (part, calls) = (part.unbind(), Arc::clone(&self.calls));
-            let (double, single) = (Buffers::default(), Buffers::default());
+            let (double, single) = (Buffer::default(), Buffer::default());
             let ranks = Arc::new(Part { part, calls, is_first, double, single });
             Ok(Some(Share { ranks, owns }))
         });
@@ -57,11 +57,8 @@ impl Engine for PythonEngine {
     }
 }
 
-/// Arrays that were handed to Python before, by their lengths: of long ones the pages alone would cost as much as their sum.
-type Buffers<T> = Mutex<Vec<Py<PyArray1<T>>>>;
-
-/// How many lengths are kept.
-const KEPT: usize = 4;
+/// Numbers that are summed at once: an array that long is handed to Python again and again.
+const AT_ONCE: usize = 1 << 16;
 
 /// What an engine says of one body.
 #[derive(Debug)]
@@ -69,27 +66,25 @@ struct Part {
     part: Py<PyAny>,
     calls: Arc<Calls>,
     is_first: bool,
-    double: Buffers<f64>,
-    single: Buffers<f32>,
+    double: Buffer<f64>,
+    single: Buffer<f32>,
 }
 
+/// The array of a kind of numbers, once there were any.
+type Buffer<T> = Mutex<Option<Py<PyArray1<T>>>>;
+
 impl Part {
-    fn sum_with<T: Element + Copy>(&self, buffers: &Buffers<T>, nothing: T, values: &mut [T]) {
+    fn sum_with<T: Element + Copy>(&self, buffer: &Buffer<T>, nothing: T, values: &mut [T]) {
         let done = self.calls.noting(|py| {
-            let mut kept = buffers.lock().unwrap_or_else(PoisonError::into_inner);
-            let found =
-                kept.iter().position(|array| array.bind(py).len().is_ok_and(|len| len == values.len()));
-            let array = match found {
-                Some(k) => kept.remove(k),
-                None => PyArray1::from_slice(py, values).unbind(),
-            };
-            if found.is_some() {
-                array.bind(py).try_readwrite()?.as_slice_mut()?.copy_from_slice(values);
+            let mut kept = buffer.lock().unwrap_or_else(PoisonError::into_inner);
+            let array =
+                kept.get_or_insert_with(|| PyArray1::from_vec(py, vec![nothing; AT_ONCE]).unbind()).bind(py);
+            for values in values.chunks_mut(AT_ONCE) {
+                array.try_readwrite()?.as_slice_mut()?[..values.len()].copy_from_slice(values);
+                let part = array.get_item(PySlice::new(py, 0, values.len() as isize, 1))?;
+                self.part.bind(py).call_method1("sum", (part,))?;
+                values.copy_from_slice(&array.try_readonly()?.as_slice()?[..values.len()]);
             }
-            self.part.bind(py).call_method1("sum", (array.bind(py),))?;
-            values.copy_from_slice(array.bind(py).try_readonly()?.as_slice()?);
-            kept.insert(0, array);
-            kept.truncate(KEPT);
             Ok(())
         });
         if done.is_none() {

@@ -1,10 +1,11 @@
 use carom_mesh::parallel::{each_chunk, share, thread_count};
 use carom_mesh::{Matrix, Vector};
+use nalgebra::SMatrix;
 
 use super::NodalMatrix;
 use super::control::CONTROL;
-use super::region::Region;
-use super::scaled::Scaled;
+use super::moved::Moved;
+use super::scaled::{Columns, Scaled};
 use super::semi_iteration::{Vectors, solve, solve_within, terms};
 use super::shared::Sharing;
 use super::spectrum::spectrum;
@@ -28,7 +29,7 @@ pub(super) struct Chebyshev<const D: usize> {
     /// 1/α is the middle of the spectrum.
     alpha: f32,
     whole: Vectors<D, 1>,
-    /// The effect of the forces that were added, zero outside of `region`.
+    /// The effect of the forces that were added, zero outside of what is `moved`.
     added: Vectors<D, 1>,
     has_added: bool,
     /// Whether `whole` has been solved for its right-hand side.
@@ -38,8 +39,10 @@ pub(super) struct Chebyshev<const D: usize> {
     wanted: Vec<u32>,
     /// Place of every node in the reach, or `u32::MAX`.
     places: Vec<u32>,
+    /// The solution there, once it was looked at.
+    seen: Vec<Vector<D>>,
     /// What forces at the reach move, once it `is_grown`.
-    region: Region,
+    moved: Moved,
     is_grown: bool,
     /// What threads find responses to unit forces with, each its own: none until there are any.
     units: Vec<Unit<D>>,
@@ -52,7 +55,7 @@ pub(super) struct Chebyshev<const D: usize> {
 struct Unit<const D: usize> {
     /// Zero between two calls.
     vectors: Vectors<D, D>,
-    region: Region,
+    moved: Moved,
 }
 
 /// The nodes that a thread finds the responses to unit forces at.
@@ -76,7 +79,7 @@ impl<const D: usize> Chebyshev<D> {
     /// If the matrix is seen not to be positive definite.
     pub fn of(matrix: &NodalMatrix<Matrix<D>>, sharing: Option<&Sharing>) -> Result<Option<Self>, FemError> {
         let matrix = Scaled::of(matrix, sharing).ok_or(FemError::NotPositiveDefinite)?;
-        let nodes = matrix.node_count();
+        let (here, nodes) = (matrix.node_count(), matrix.graph().node_count());
         let [least, largest] = spectrum(&matrix);
         if least.is_nan() || least < -CONTROL.round_off * largest {
             return Err(FemError::NotPositiveDefinite);
@@ -87,14 +90,15 @@ impl<const D: usize> Chebyshev<D> {
             matrix,
             weights,
             alpha: (1.0 / middle) as f32,
-            whole: Vectors::zeros(nodes),
-            added: Vectors::zeros(nodes),
+            whole: Vectors::zeros(here),
+            added: Vectors::zeros(here),
             has_added: false,
             solved: false,
             reach: Vec::new(),
             wanted: Vec::new(),
             places: vec![u32::MAX; nodes],
-            region: Region::default(),
+            seen: Vec::new(),
+            moved: Moved::default(),
             is_grown: false,
             units: Vec::new(),
             responses: Vec::new(),
@@ -112,8 +116,8 @@ impl<const D: usize> Chebyshev<D> {
     pub fn begin(&mut self, b: &[Vector<D>]) {
         let matrix = &self.matrix;
         each_chunk(&mut self.whole.b, |first, scaled| {
-            for (node, scaled) in (first..).zip(scaled) {
-                *scaled = matrix.scale(node, &b[node]);
+            for (place, scaled) in (first..).zip(scaled) {
+                *scaled = matrix.scale(place, &b[matrix.node_at(place)]);
             }
         });
         if self.has_added {
@@ -125,16 +129,24 @@ impl<const D: usize> Chebyshev<D> {
 
     /// See [`super::Factor::end`].
     pub fn end(&mut self, out: &mut [Vector<D>]) {
-        self.look();
+        self.solve_once();
         if self.has_added {
             self.solve_added();
         }
         let (matrix, x) = (&self.matrix, &self.whole.x);
-        each_chunk(out, |first, out| {
-            for (node, out) in (first..).zip(out) {
-                *out = matrix.unscale(node, &x[node]);
-            }
-        });
+        let Some(rows) = matrix.rows() else {
+            each_chunk(out, |first, out| {
+                for (node, out) in (first..).zip(out) {
+                    *out = matrix.unscale(node, &x[node]);
+                }
+            });
+            return;
+        };
+        out.fill(Vector::zeros());
+        for (place, (&node, x)) in rows.nodes().iter().zip(x).enumerate() {
+            out[node as usize] = matrix.unscale(place, x) * rows.share(place);
+        }
+        rows.ranks().sum(bytemuck::cast_slice_mut(out));
     }
 
     /// See [`super::Factor::set_reach`].
@@ -157,25 +169,29 @@ impl<const D: usize> Chebyshev<D> {
 
     /// See [`super::Factor::look`].
     pub fn look(&mut self) {
-        if !self.solved {
-            self.solve_whole();
-            self.solved = true;
+        self.solve_once();
+        let Self { matrix, whole, reach, seen, .. } = self;
+        seen.clear();
+        seen.extend(reach.iter().map(|&node| part_at(matrix, &whole.x, node as usize)));
+        if let Some(rows) = matrix.rows() {
+            rows.ranks().sum(bytemuck::cast_slice_mut(seen));
         }
     }
 
     /// See [`super::Factor::seen`].
     pub fn seen(&self, node: usize) -> Vector<D> {
-        self.matrix.unscale(node, &self.whole.x[node])
+        self.seen[self.places[node] as usize]
     }
 
     /// See [`super::Factor::add`].
     pub fn add(&mut self, forces: impl Iterator<Item = (usize, Vector<D>)>) {
         for (node, force) in forces {
-            let scaled = self.matrix.scale(node, &force);
-            for (b, f) in self.added.b[node].iter_mut().zip(scaled) {
+            self.has_added = true;
+            let Some(place) = self.matrix.place_of(node) else { continue };
+            let scaled = self.matrix.scale(place, &force);
+            for (b, f) in self.added.b[place].iter_mut().zip(scaled) {
                 b[0] += f[0];
             }
-            self.has_added = true;
         }
     }
 
@@ -190,7 +206,7 @@ impl<const D: usize> Chebyshev<D> {
         }
         let threads = thread_count().min(nodes.len());
         while units.len() < threads {
-            units.push(Unit { vectors: Vectors::zeros(matrix.node_count()), region: Region::default() });
+            units.push(Unit { vectors: Vectors::zeros(matrix.node_count()), moved: Moved::default() });
         }
         let each = nodes.len().div_ceil(threads);
         let of_each = nodes.chunks(each).zip(responses.chunks_mut(each * reach.len()));
@@ -203,13 +219,20 @@ impl<const D: usize> Chebyshev<D> {
                     unit.solve(node, matrix, weights, *alpha);
                     let x = &unit.vectors.x;
                     for (response, &a) in responses.iter_mut().zip(&*reach) {
-                        *response = matrix.unscale(a as usize, &x[a as usize]);
+                        *response = part_at(matrix, x, a as usize);
                     }
-                    unit.vectors.clear(unit.region.nodes());
+                    unit.vectors.clear(unit.moved.here(usize::MAX));
                 }
             }
         };
-        if threads == 1 { respond(0, &mut parts) } else { share(&mut parts, 1, &respond) }
+        if threads == 1 {
+            respond(0, &mut parts)
+        } else {
+            share(&mut parts, 1, &respond)
+        }
+        if let Some(rows) = matrix.rows() {
+            rows.ranks().sum(bytemuck::cast_slice_mut(responses));
+        }
     }
 
     /// See [`super::Factor::response`].
@@ -217,35 +240,50 @@ impl<const D: usize> Chebyshev<D> {
         self.responses[number * self.reach.len() + self.places[node] as usize]
     }
 
-    fn solve_whole(&mut self) {
-        solve(&self.matrix, &self.weights, self.alpha, &mut self.whole);
+    fn solve_once(&mut self) {
+        if !std::mem::replace(&mut self.solved, true) {
+            solve(&self.matrix, &self.weights, self.alpha, &mut self.whole);
+        }
     }
 
     /// Adds the effect of the forces that were added to the solution.
     fn solve_added(&mut self) {
-        let Self { matrix, weights, alpha, whole, added, reach, region, is_grown, .. } = self;
+        let Self { matrix, weights, alpha, whole, added, reach, moved, is_grown, .. } = self;
         if !*is_grown {
-            region.grow(matrix.graph(), reach.iter().copied(), weights.len() - 1);
+            moved.grow(matrix, reach.iter().copied(), weights.len() - 1);
             *is_grown = true;
         }
-        solve_within(matrix, weights, *alpha, added, region);
-        for &node in region.nodes() {
-            for (x, added) in whole.x[node as usize].iter_mut().zip(&added.x[node as usize]) {
+        solve_within(matrix, weights, *alpha, added, moved);
+        for place in moved.here(usize::MAX) {
+            for (x, added) in whole.x[place].iter_mut().zip(&added.x[place]) {
                 x[0] += added[0];
             }
         }
-        added.clear(region.nodes());
+        added.clear(moved.here(usize::MAX));
         self.has_added = false;
     }
 }
 
+/// What this process has of a solution at a node of the body: the sum over all of them is the solution.
+fn part_at<const D: usize, const C: usize>(
+    matrix: &Scaled<D>,
+    x: &[Columns<D, C>],
+    node: usize,
+) -> SMatrix<f64, D, C> {
+    let Some(place) = matrix.place_of(node) else { return SMatrix::zeros() };
+    let solution = matrix.unscale(place, &x[place]);
+    matrix.rows().map_or(solution, |rows| solution * rows.share(place))
+}
+
 impl<const D: usize> Unit<D> {
-    /// Solves for unit forces at a node: what they move is the region.
+    /// Solves for unit forces at a node.
     fn solve(&mut self, node: usize, matrix: &Scaled<D>, weights: &[f32], alpha: f32) {
-        let Self { vectors, region } = self;
-        region.grow(matrix.graph(), std::iter::once(node as u32), weights.len() - 1);
-        vectors.b[node] = matrix.scale(node, &Matrix::identity());
-        solve_within(matrix, weights, alpha, vectors, region);
+        let Self { vectors, moved } = self;
+        moved.grow(matrix, std::iter::once(node as u32), weights.len() - 1);
+        if let Some(place) = matrix.place_of(node) {
+            vectors.b[place] = matrix.scale(place, &Matrix::identity());
+        }
+        solve_within(matrix, weights, alpha, vectors, moved);
     }
 }
 

@@ -76,6 +76,17 @@ impl NodeGraph {
         Self::of_rows(rows)
     }
 
+    /// The graph of these rows, each of them ascending.
+    pub(super) fn of_ascending(rows: impl Iterator<Item = impl Iterator<Item = u32>>) -> Self {
+        let (mut starts, mut neighbours) = (vec![0], Vec::new());
+        for row in rows {
+            neighbours.extend(row);
+            starts.push(neighbours.len());
+        }
+        neighbours.shrink_to_fit();
+        Self { starts, neighbours }
+    }
+
     fn of_rows(mut rows: Vec<Vec<u32>>) -> Self {
         let mut starts = vec![0];
         let mut neighbours = Vec::new();

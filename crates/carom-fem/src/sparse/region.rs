@@ -44,6 +44,12 @@ impl Region {
         &self.nodes[..self.ends[ring.min(self.ends.len() - 1)]]
     }
 
+    /// Its rings, from the middle on.
+    pub(super) fn rings(&self) -> impl Iterator<Item = &[u32]> {
+        let starts = std::iter::once(0).chain(self.ends.iter().copied());
+        starts.zip(&self.ends).map(|(start, &end)| &self.nodes[start..end])
+    }
+
     /// Its nodes, ring by ring.
     #[must_use]
     pub fn nodes(&self) -> &[u32] {

@@ -4,6 +4,7 @@ use carom_mesh::Matrix;
 use nalgebra::SMatrix;
 
 use super::control::CONTROL;
+use super::rows::Rows;
 use super::shared::Sharing;
 use super::{NodalMatrix, NodeGraph};
 use crate::ranks::Ranks;
@@ -20,6 +21,8 @@ pub(super) type Columns<const D: usize, const C: usize> = [[f32; C]; D];
 ///
 /// No entry of S is larger than those of its diagonal, which are 1. Sixteen bits with a fixed point hold them to 1.5·10⁻⁵, much
 /// less than the error of an approximate inverse. Products wait for memory, so half of single precision is half the time.
+///
+/// Of a matrix that processes share it has the rows that are here, and nodes are their places among these: see [`Rows`].
 #[derive(Debug)]
 pub(super) struct Scaled<const D: usize> {
     graph: Arc<NodeGraph>,
@@ -28,28 +31,33 @@ pub(super) struct Scaled<const D: usize> {
     /// The blocks of S by entry of the graph, column by column, times [`ONE`]; behind the last one what is read beyond it.
     values: Vec<i16>,
     /// Who has the rest of the matrix, if others have.
-    sharing: Option<Sharing>,
+    shared: Option<(Sharing, Rows)>,
 }
 
 impl<const D: usize> Scaled<D> {
     /// None if a block of the diagonal is not positive definite, or a number is not finite.
     pub fn of(matrix: &NodalMatrix<Matrix<D>>, sharing: Option<&Sharing>) -> Option<Self> {
-        let graph = Arc::clone(matrix.shared_graph());
-        let own = |node: usize| matrix.values[graph.entry(node as u32, node as u32)];
-        let mut diagonal: Vec<Matrix<D>> = (0..graph.node_count()).map(own).collect();
-        if let Some(sharing) = sharing {
-            sharing.ranks.sum(bytemuck::cast_slice_mut(&mut diagonal));
+        let shared = sharing.map(|sharing| (sharing.clone(), Rows::of(matrix, &sharing.ranks)));
+        let rows = shared.as_ref().map(|(_, rows)| rows);
+        let whole = matrix.shared_graph();
+        let graph = rows.map_or_else(|| Arc::clone(whole), |rows| Arc::new(rows.part_of(whole)));
+        let own = |node: usize| matrix.values[whole.entry(node as u32, node as u32)];
+        let mut diagonal: Vec<Matrix<D>> =
+            (0..graph.node_count()).map(|place| own(node_at(rows, place))).collect();
+        if let Some(rows) = rows {
+            let sum = |ranks: &dyn Ranks, parts: &mut [Matrix<D>]| ranks.sum(bytemuck::cast_slice_mut(parts));
+            rows.sum_split(&mut diagonal, Matrix::zeros(), sum);
         }
         let scale = |block: Matrix<D>| nalgebra::Cholesky::new(block)?.l().try_inverse();
-        let scales: Vec<Matrix<D>> = diagonal.into_iter().map(scale).collect::<Option<_>>()?;
-        let values = scaled_values(matrix, &scales);
+        let scales: Option<Vec<Matrix<D>>> = diagonal.into_iter().map(scale).collect();
+        let values = scales.as_ref().and_then(|scales| scaled_values(matrix, rows, scales));
         // All ranks are to say the same.
         let mut refused = [f64::from(u8::from(values.is_none()))];
-        sharing.iter().for_each(|sharing| sharing.ranks.sum(&mut refused));
+        rows.iter().for_each(|rows| rows.ranks().sum(&mut refused));
         if refused[0] > 0.0 {
             return None;
         }
-        Some(Self { graph, scales, values: values?, sharing: sharing.cloned() })
+        Some(Self { graph, scales: scales?, values: values?, shared })
     }
 
     /// Number of nodes.
@@ -57,14 +65,26 @@ impl<const D: usize> Scaled<D> {
         self.scales.len()
     }
 
-    /// The graph of its nodes, whoever has the entries.
+    /// The graph of the nodes of the body, whoever has their rows.
     pub fn graph(&self) -> &NodeGraph {
-        self.sharing.as_ref().map_or(&self.graph, |sharing| &sharing.graph)
+        self.shared.as_ref().map_or(&self.graph, |(sharing, _)| &sharing.graph)
     }
 
-    /// Who has the rest of it, if others have.
-    pub fn ranks(&self) -> Option<&dyn Ranks> {
-        self.sharing.as_ref().map(|sharing| &*sharing.ranks)
+    /// The rows that are here, if others have some.
+    pub fn rows(&self) -> Option<&Rows> {
+        self.shared.as_ref().map(|(_, rows)| rows)
+    }
+
+    /// The number in the body of the node at a place.
+    #[inline]
+    pub fn node_at(&self, place: usize) -> usize {
+        node_at(self.rows(), place)
+    }
+
+    /// The place of a node of the body, if its row is here.
+    #[inline]
+    pub fn place_of(&self, node: usize) -> Option<usize> {
+        self.rows().map_or(Some(node), |rows| rows.place(node))
     }
 
     /// Memory [bytes].
@@ -91,7 +111,19 @@ impl<const D: usize> Scaled<D> {
         std::array::from_fn(|i| [upper.row(i).sum() as f32])
     }
 
-    /// The row of a node of S x; of a shared matrix this process's part of it.
+    /// S x.
+    pub fn times(&self, x: &[Columns<D, 1>]) -> Vec<Columns<D, 1>> {
+        let mut products = (0..self.node_count()).map(|node| self.row_times(node, x)).collect::<Vec<_>>();
+        if let Some(rows) = self.rows() {
+            let sum = |ranks: &dyn Ranks, parts: &mut [Columns<D, 1>]| {
+                ranks.sum_single(parts.as_flattened_mut().as_flattened_mut());
+            };
+            rows.sum_split(&mut products, [[0.0]; D], sum);
+        }
+        products
+    }
+
+    /// The row of a node of S x; of a split one this process's part of it.
     #[inline(always)]
     pub fn row_times<const C: usize>(&self, node: usize, x: &[Columns<D, C>]) -> Columns<D, C> {
         let (range, neighbours) = self.graph.neighbours(node);
@@ -124,13 +156,24 @@ impl<const D: usize> Scaled<D> {
     }
 }
 
+#[inline]
+fn node_at(rows: Option<&Rows>, place: usize) -> usize {
+    rows.map_or(place, |rows| rows.nodes()[place] as usize)
+}
+
 /// The blocks of S where L⁻¹ of every node is known; none if one is too large or not finite.
-fn scaled_values<const D: usize>(matrix: &NodalMatrix<Matrix<D>>, scales: &[Matrix<D>]) -> Option<Vec<i16>> {
+fn scaled_values<const D: usize>(
+    matrix: &NodalMatrix<Matrix<D>>,
+    rows: Option<&Rows>,
+    scales: &[Matrix<D>],
+) -> Option<Vec<i16>> {
     let graph = matrix.graph();
+    let place_of = |node: usize| rows.map_or(Some(node), |rows| rows.place(node));
     let mut values = Vec::with_capacity(graph.entry_count() * D * D + LANES);
-    for node in 0..graph.node_count() {
-        for (entry, neighbour) in graph.row(node) {
-            let block = scales[node] * matrix.values[entry] * scales[neighbour].transpose();
+    for place in 0..scales.len() {
+        for (entry, neighbour) in graph.row(node_at(rows, place)) {
+            let Some(neighbour) = place_of(neighbour) else { continue };
+            let block = scales[place] * matrix.values[entry] * scales[neighbour].transpose();
             if !block.iter().all(|x| x.abs() <= CONTROL.largest) {
                 return None;
             }

@@ -4,7 +4,8 @@ use carom_mesh::parallel::each_chunk;
 use pulp::{Arch, Simd, WithSimd};
 
 use super::control::CONTROL;
-use super::region::Region;
+use super::moved::Moved;
+use super::rows::{ELSEWHERE, Split};
 use super::scaled::{Columns, Scaled};
 use crate::ranks::Ranks;
 
@@ -22,10 +23,11 @@ impl<const D: usize, const C: usize> Vectors<D, C> {
         Self { b: zeros(), x: zeros(), before: zeros() }
     }
 
-    pub fn clear(&mut self, nodes: &[u32]) {
-        for &node in nodes {
+    /// Makes them zero at some places.
+    pub fn clear(&mut self, places: impl Iterator<Item = usize>) {
+        for place in places {
             for values in [&mut self.b, &mut self.x, &mut self.before] {
-                values[node as usize] = [[0.0; C]; D];
+                values[place] = [[0.0; C]; D];
             }
         }
     }
@@ -69,56 +71,58 @@ impl<const D: usize, const C: usize> Term<'_, D, C> {
     }
 
     fn apply_to_all(self, before: &mut [Columns<D, C>]) {
-        if let Some(ranks) = self.matrix.ranks() {
-            return self.apply_shared(ranks, 0..before.len(), before);
+        if let Some(rows) = self.matrix.rows() {
+            let Split { whole, split } = rows.all();
+            return self.apply_shared(rows.ranks(), whole, split, before);
         }
         each_chunk(before, |first, before| Arch::new().dispatch(Chunk { term: self, first, before }));
     }
 
-    /// Where it makes no other node move than these.
-    fn apply_at(self, nodes: &[u32], before: &mut [Columns<D, C>]) {
+    /// Where it makes nothing else move than so many rings of this.
+    fn apply_within(self, moved: &Moved, ring: usize, before: &mut [Columns<D, C>]) {
         // In the order of the matrix more nodes cost less, and threads share them.
-        if 2 * nodes.len() > before.len() {
-            self.apply_to_all(before);
-        } else if let Some(ranks) = self.matrix.ranks() {
-            self.apply_shared(ranks, nodes.iter().map(|&node| node as usize), before);
-        } else {
-            Arch::new().dispatch(Scattered { term: self, nodes, before });
+        if 2 * moved.region().up_to(ring).len() > self.matrix.graph().node_count() {
+            return self.apply_to_all(before);
+        }
+        let (whole, split) = moved.up_to(ring);
+        match self.matrix.rows() {
+            Some(rows) => self.apply_shared(rows.ranks(), whole, split, before),
+            None => Arch::new().dispatch(Scattered { term: self, places: whole, before }),
+        }
+    }
+
+    /// Where other ranks have parts of the rows that are split. Beside their message the memory that this takes anew is nothing.
+    fn apply_shared(self, ranks: &dyn Ranks, whole: &[u32], split: &[u32], before: &mut [Columns<D, C>]) {
+        let mut products = vec![[[0.0; C]; D]; split.len()];
+        Arch::new().dispatch(Products { term: self, places: split, products: &mut products });
+        if !split.is_empty() {
+            ranks.sum_single(products.as_flattened_mut().as_flattened_mut());
+        }
+        Arch::new().dispatch(Scattered { term: self, places: whole, before });
+        for (&place, product) in split.iter().zip(&products).filter(|&(&place, _)| place != ELSEWHERE) {
+            self.apply_product(place as usize, product, &mut before[place as usize]);
         }
     }
 }
 
-impl<const D: usize, const C: usize> Term<'_, D, C> {
-    /// Where other ranks have parts of the matrix. Beside their message the memory that this takes anew is nothing.
-    fn apply_shared(
-        self,
-        ranks: &dyn Ranks,
-        nodes: impl Iterator<Item = usize> + Clone,
-        before: &mut [Columns<D, C>],
-    ) {
-        let mut products = Vec::new();
-        Arch::new().dispatch(Products { term: self, nodes: nodes.clone(), products: &mut products });
-        ranks.sum_single(products.as_flattened_mut().as_flattened_mut());
-        for (node, product) in nodes.zip(&products) {
-            self.apply_product(node, product, &mut before[node]);
-        }
-    }
-}
-
-/// The rows of S x of some nodes.
-struct Products<'a, const D: usize, const C: usize, N> {
+/// The rows of S x at some places, or [`ELSEWHERE`].
+struct Products<'a, const D: usize, const C: usize> {
     term: Term<'a, D, C>,
-    nodes: N,
-    products: &'a mut Vec<Columns<D, C>>,
+    places: &'a [u32],
+    products: &'a mut [Columns<D, C>],
 }
 
-impl<const D: usize, const C: usize, N: Iterator<Item = usize>> WithSimd for Products<'_, D, C, N> {
+impl<const D: usize, const C: usize> WithSimd for Products<'_, D, C> {
     type Output = ();
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _simd: S) {
-        let Self { term, nodes, products } = self;
-        products.extend(nodes.map(|node| term.matrix.row_times(node, term.x)));
+        let Self { term, places, products } = self;
+        for (&place, product) in places.iter().zip(products) {
+            if place != ELSEWHERE {
+                *product = term.matrix.row_times(place as usize, term.x);
+            }
+        }
     }
 }
 
@@ -129,10 +133,10 @@ struct Chunk<'a, const D: usize, const C: usize> {
     before: &'a mut [Columns<D, C>],
 }
 
-/// A term for some nodes.
+/// A term at some places.
 struct Scattered<'a, const D: usize, const C: usize> {
     term: Term<'a, D, C>,
-    nodes: &'a [u32],
+    places: &'a [u32],
     before: &'a mut [Columns<D, C>],
 }
 
@@ -152,8 +156,8 @@ impl<const D: usize, const C: usize> WithSimd for Scattered<'_, D, C> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _simd: S) {
-        for &node in self.nodes {
-            self.term.apply(node as usize, &mut self.before[node as usize]);
+        for &place in self.places {
+            self.term.apply(place as usize, &mut self.before[place as usize]);
         }
     }
 }
@@ -195,22 +199,22 @@ pub(super) fn solve<const D: usize, const C: usize>(
     }
 }
 
-/// [`solve`] for a right-hand side that is zero outside the middle of the `region`, with vectors that are zero outside
+/// [`solve`] for a right-hand side that is zero outside the middle of what is `moved`, with vectors that are zero outside
 /// of it: each term takes in one more ring.
 pub(super) fn solve_within<const D: usize, const C: usize>(
     matrix: &Scaled<D>,
     weights: &[f32],
     alpha: f32,
     vectors: &mut Vectors<D, C>,
-    region: &Region,
+    moved: &Moved,
 ) {
     let Vectors { b, x, before } = vectors;
-    for &node in region.up_to(0) {
-        x[node as usize] = b[node as usize].map(|row| row.map(|b| alpha * b));
+    for place in moved.here(0) {
+        x[place] = b[place].map(|row| row.map(|b| alpha * b));
     }
     for (ring, &omega) in weights.iter().enumerate().skip(1) {
         let term = Term { matrix, factors: [omega, alpha], b, x };
-        term.apply_at(region.up_to(ring), before);
+        term.apply_within(moved, ring, before);
         std::mem::swap(x, before);
     }
 }

@@ -11,35 +11,33 @@ use super::scaled::{Columns, Scaled};
 /// It starts from a uniform motion, near the softest modes of a body, and a rough one, which reaches the stiffest.
 pub(super) fn spectrum<const D: usize>(matrix: &Scaled<D>) -> [f64; 2] {
     let n = matrix.node_count();
+    let steps = CONTROL.steps.min(matrix.graph().node_count() * D);
     let mut v: Vec<Columns<D, 1>> = (0..n).map(|node| start(matrix, node)).collect();
     let mut before = vec![[[0.0_f32; 1]; D]; n];
     let (mut diagonal, mut beside) = (Vec::new(), Vec::new());
-    let mut norm = dot(&v, &v).sqrt();
+    let mut norm = dot(matrix, &v, &v).sqrt();
     scale(&mut v, 1.0 / norm);
-    for step in 0..CONTROL.steps.min(n * D) {
+    for step in 0..steps {
         // before ← (A v − before·β), then without its part along v.
         let beta = beside.last().copied().unwrap_or(0.0) as f32;
-        let mut products: Vec<Columns<D, 1>> = (0..n).map(|node| matrix.row_times(node, &v)).collect();
-        if let Some(ranks) = matrix.ranks() {
-            ranks.sum_single(products.as_flattened_mut().as_flattened_mut());
-        }
+        let products = matrix.times(&v);
         for (before, product) in before.iter_mut().zip(products) {
             for (before, product) in before.iter_mut().zip(product) {
                 before[0] = product[0] - beta * before[0];
             }
         }
-        let along = dot(&before, &v);
+        let along = dot(matrix, &before, &v);
         diagonal.push(along);
         for (before, v) in before.iter_mut().zip(&v) {
             for (before, v) in before.iter_mut().zip(v) {
                 before[0] -= along as f32 * v[0];
             }
         }
-        norm = dot(&before, &before).sqrt();
+        norm = dot(matrix, &before, &before).sqrt();
         if !norm.is_finite() {
             return [f64::NAN; 2];
         }
-        if norm < CONTROL.nothing * along.abs() || step + 1 == CONTROL.steps.min(n * D) {
+        if norm < CONTROL.nothing * along.abs() || step + 1 == steps {
             break;
         }
         scale(&mut before, 1.0 / norm);
@@ -59,7 +57,7 @@ pub(super) fn spectrum<const D: usize>(matrix: &Scaled<D>) -> [f64; 2] {
 fn start<const D: usize>(matrix: &Scaled<D>, node: usize) -> Columns<D, 1> {
     let uniform = matrix.uniform(node);
     std::array::from_fn(|i| {
-        let rough = if scrambled((node * D + i) as u64) >> 63 == 0 { 1.0 } else { -1.0 };
+        let rough = if scrambled((matrix.node_at(node) * D + i) as u64) >> 63 == 0 { 1.0 } else { -1.0 };
         [uniform[i][0] * (1.0 + rough)]
     })
 }
@@ -72,11 +70,15 @@ fn scrambled(n: u64) -> u64 {
     x ^ (x >> 31)
 }
 
-fn dot<const D: usize>(a: &[Columns<D, 1>], b: &[Columns<D, 1>]) -> f64 {
-    a.iter()
-        .zip(b)
-        .map(|(a, b)| a.iter().zip(b).map(|(a, b)| f64::from(a[0]) * f64::from(b[0])).sum::<f64>())
-        .sum()
+fn dot<const D: usize>(matrix: &Scaled<D>, a: &[Columns<D, 1>], b: &[Columns<D, 1>]) -> f64 {
+    let of = |(a, b): (&Columns<D, 1>, &Columns<D, 1>)| {
+        a.iter().zip(b).map(|(a, b)| f64::from(a[0]) * f64::from(b[0])).sum::<f64>()
+    };
+    let each = a.iter().zip(b);
+    let Some(rows) = matrix.rows() else { return each.map(of).sum() };
+    let mut sum = [each.enumerate().map(|(place, pair)| rows.share(place) * of(pair)).sum()];
+    rows.ranks().sum(&mut sum);
+    sum[0]
 }
 
 fn scale<const D: usize>(v: &mut [Columns<D, 1>], by: f64) {
