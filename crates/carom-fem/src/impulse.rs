@@ -152,7 +152,7 @@ impl<const D: usize> MassSolver<D> {
         let mut diagonal: Vec<f64> = (0..nodes).map(own).collect();
         body.ranks().iter().for_each(|ranks| ranks.sum(&mut diagonal));
         self.all_inverse = diagonal.into_iter().map(f64::recip).collect();
-        self.spread = vec![Vector::zeros(); nodes];
+        self.spread = nodal::zeros(nodes);
     }
 }
 

@@ -10,6 +10,12 @@ use crate::{Matrix, Vector};
 
 const PARTS: usize = 4;
 
+/// So many zeros. What nobody writes to takes no memory where the system gives it by the page: copies of them do.
+#[must_use]
+pub fn zeros<const D: usize>(count: usize) -> Vec<Vector<D>> {
+    bytemuck::zeroed_vec(count)
+}
+
 /// Calls `f` with every vector of `a`, and those of the `others` at the same node.
 #[inline]
 pub fn each<const D: usize, const K: usize>(

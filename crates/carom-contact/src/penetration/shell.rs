@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use carom_mesh::{CellKind, Facet, Surface, Vector};
+use carom_mesh::{CellKind, Facet, Surface, Vector, nodal};
 
 use super::deep::Deep;
 use super::feature::Feature;
@@ -75,7 +75,7 @@ impl<const D: usize> Shell<D> {
             edges.iter().filter(|(_, (_, count))| *count == 1).flat_map(|(nodes, _)| *nodes).collect()
         };
         Self {
-            x: vec![Vector::zeros(); nodes.keys().next_back().map_or(0, |last| (last - first) as usize + 1)],
+            x: nodal::zeros(nodes.keys().next_back().map_or(0, |last| (last - first) as usize + 1)),
             nodes: nodes.into_iter().collect(),
             edges: edges.into_iter().map(|(nodes, (f, _))| (nodes, f)).collect(),
             between: curved.iter().map(|[_, _, middle]| *middle).collect(),

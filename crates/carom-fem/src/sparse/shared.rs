@@ -1,6 +1,6 @@
 use std::sync::Arc;
 
-use carom_mesh::{Matrix, Vector};
+use carom_mesh::{Matrix, Vector, nodal};
 
 use super::{NodalMatrix, NodeGraph};
 use crate::FemError;
@@ -36,13 +36,12 @@ pub(super) struct Shared<const D: usize> {
 impl<const D: usize> Shared<D> {
     pub fn new(sharing: &Sharing) -> Self {
         let count = sharing.graph.node_count();
-        let zeros = vec![Vector::zeros(); count];
         Self {
             solver: sharing.ranks.solver(),
             is_exact: false,
-            x: zeros.clone(),
+            x: nodal::zeros(count),
             is_solved: false,
-            added: zeros,
+            added: nodal::zeros(count),
             has_added: false,
             reach: Vec::new(),
             places: vec![u32::MAX; count],
@@ -132,7 +131,7 @@ impl<const D: usize> Shared<D> {
 
     /// See [`super::Factor::respond`].
     pub fn respond(&mut self, nodes: impl Iterator<Item = usize>) {
-        let mut unit = vec![Vector::<D>::zeros(); self.x.len()];
+        let mut unit = nodal::zeros::<D>(self.x.len());
         self.responses.clear();
         for node in nodes {
             let first = self.responses.len();

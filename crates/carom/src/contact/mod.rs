@@ -27,7 +27,7 @@ mod woodbury;
 
 use carom_contact::Contact;
 use carom_friction::{ContactProblem, Measure};
-use carom_mesh::Vector;
+use carom_mesh::{Vector, nodal};
 
 use self::active::ActiveSet;
 use self::candidates::Finder;
@@ -85,7 +85,7 @@ impl<const D: usize> Contacts<D> {
             on_masses: OnMasses::default(),
             slip: Slip::new(assembly.node_count()),
             at_end: Vec::new(),
-            mean_force: vec![Vector::zeros(); assembly.reference.len()],
+            mean_force: nodal::zeros(assembly.reference.len()),
         }
     }
 

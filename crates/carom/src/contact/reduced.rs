@@ -4,7 +4,7 @@ use std::time::Duration;
 
 use carom_contact::Contact;
 use carom_friction::{ContactProblem, SolverKind, StoppingRule};
-use carom_mesh::Vector;
+use carom_mesh::{Vector, nodal};
 
 use super::active::ActiveSet;
 use super::control::CONTROL;
@@ -72,7 +72,7 @@ pub(crate) struct Reduced<const D: usize> {
 impl<const D: usize> Reduced<D> {
     /// Of an assembly.
     pub fn new(assembly: &Assembly<D>) -> Self {
-        let zeros = vec![Vector::zeros(); assembly.reference.len()];
+        let count = assembly.reference.len();
         Self {
             delassus: Delassus::new(assembly),
             problem: ContactProblem::default(),
@@ -83,8 +83,8 @@ impl<const D: usize> Reduced<D> {
             friction_time: Duration::ZERO,
             nodes: vec![Vec::new(); assembly.body_count()],
             listed: Vec::new(),
-            known_motion: zeros.clone(),
-            change: zeros,
+            known_motion: nodal::zeros(count),
+            change: nodal::zeros(count),
         }
     }
 

@@ -127,25 +127,25 @@ impl<const D: usize> State<D> {
         mut velocity: Vec<Vector<D>>,
     ) -> Self {
         assert_eq!(velocity.len(), assembly.node_count(), "one velocity per node");
-        let still = vec![Vector::zeros(); velocity.len()];
+        let still = nodal::zeros(velocity.len());
         for (i, body) in bodies.iter().enumerate() {
             body.constrain(&still[assembly.nodes(i)], &mut velocity[assembly.nodes(i)], 0.0);
         }
         velocity.extend(assembly.obstacle_motions.iter().map(|m| m.velocity(0.0)));
-        let zeros = vec![Vector::zeros(); velocity.len()];
+        let count = velocity.len();
         let mut state = Self {
             time: 0.0,
-            displacement: zeros.clone(),
+            displacement: nodal::zeros(count),
             velocity,
             reactions: Vec::new(),
             sliding: Vec::new(),
-            contact_force: zeros.clone(),
-            friction_energy: vec![0.0; zeros.len()],
+            contact_force: nodal::zeros(count),
+            friction_energy: vec![0.0; count],
             support: vec![Vector::zeros(); assembly.supports],
-            anchor: zeros.clone(),
+            anchor: nodal::zeros(count),
             history: bodies.iter().map(|body| body.initial_history()).collect(),
-            slip: vec![0.0; zeros.len()],
-            internal_force: zeros,
+            slip: vec![0.0; count],
+            internal_force: nodal::zeros(count),
             energies: Energies::default(),
             body_energies: vec![Energies::default(); bodies.len()],
             energy_debt: vec![0.0; bodies.len()],
@@ -157,7 +157,7 @@ impl<const D: usize> State<D> {
     /// The state that a static analysis starts from: there are no velocities, whatever the rate at which supports set out.
     #[must_use]
     pub fn at_rest(assembly: &Assembly<D>, bodies: &[Box<dyn Body<D>>]) -> Self {
-        let mut state = Self::initial(assembly, bodies, vec![Vector::zeros(); assembly.node_count()]);
+        let mut state = Self::initial(assembly, bodies, nodal::zeros(assembly.node_count()));
         state.velocity.fill(Vector::zeros());
         state.refresh(assembly, bodies);
         state
@@ -176,7 +176,7 @@ impl<const D: usize> State<D> {
         self.velocity[nodes.clone()].copy_from_slice(velocity);
         let displacement = &self.displacement[nodes.clone()];
         bodies[index].constrain(displacement, &mut self.velocity[nodes.clone()], self.time);
-        let mut forces = vec![Vector::zeros(); nodes.len()];
+        let mut forces = nodal::zeros(nodes.len());
         let energies = bodies[index].measure(&self.body(index, nodes), &mut forces);
         self.body_energies[index].kinetic = energies.kinetic;
         self.sum_energies(assembly);
@@ -185,7 +185,7 @@ impl<const D: usize> State<D> {
 
     /// Recomputes forces and energies from displacements and velocities.
     pub(crate) fn refresh(&mut self, assembly: &Assembly<D>, bodies: &[Box<dyn Body<D>>]) {
-        let mut forces = vec![Vector::zeros(); self.internal_force.len()];
+        let mut forces = nodal::zeros(self.internal_force.len());
         for (i, body) in bodies.iter().enumerate() {
             let nodes = assembly.nodes(i);
             let energies = body.measure(&self.body(i, nodes.clone()), &mut forces[nodes]);

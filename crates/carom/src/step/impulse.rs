@@ -1,7 +1,7 @@
 //! Impulses in contacts at the end of a step.
 
 use carom_contact::{Contact, Target};
-use carom_mesh::Vector;
+use carom_mesh::{Vector, nodal};
 
 use super::control::IMPULSIVE;
 use crate::body::{Jolt, Masses};
@@ -95,8 +95,8 @@ impl<const D: usize> Impulses<D> {
             done: Vec::new(),
             landings: 0,
             arriving: Vec::new(),
-            force: vec![Vector::zeros(); nodes],
-            change: vec![Vector::zeros(); nodes],
+            force: nodal::zeros(nodes),
+            change: nodal::zeros(nodes),
             takes_part: vec![false; bodies],
             borne: vec![0.0; bodies],
             supports: Vec::new(),

@@ -1,6 +1,6 @@
 //! What iterates in a step: bodies, their contacts, and where they are guessed to be.
 
-use carom_mesh::Vector;
+use carom_mesh::{Vector, nodal};
 
 use super::blend::Blend;
 use super::newton::Newton;
@@ -28,7 +28,7 @@ impl<const D: usize> Iterating<D> {
             contacts: Contacts::new(assembly),
             newton: Newton::new(assembly),
             blend: Blend::new(bodies.len()),
-            motion: vec![Vector::zeros(); assembly.reference.len()],
+            motion: nodal::zeros(assembly.reference.len()),
             factorisations: 0,
             bodies,
         }

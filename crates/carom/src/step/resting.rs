@@ -10,7 +10,7 @@
 //! found, something that it touches moves, or what drives it changes. Then nor does anything of its island.
 
 use carom_contact::{Candidate, Pair, Solid, Target};
-use carom_mesh::Vector;
+use carom_mesh::{Vector, nodal};
 
 use super::control::RESTING;
 use crate::body::Body;
@@ -56,7 +56,7 @@ impl<const D: usize> Resting<D> {
             who: AtRest { bodies: vec![false; count], obstacles: Vec::new() },
             awake: (0..count).collect(),
             watches: vec![Watch::default(); count],
-            place: vec![Vector::zeros(); assembly.node_count()],
+            place: nodal::zeros(assembly.node_count()),
             islands: Islands::default(),
         }
     }

@@ -2,8 +2,8 @@
 //!
 //! Islands, and bodies that nothing touches, know nothing of one another: what a step comes to is the same to the last bit whoever iterates which.
 
-use carom_mesh::Vector;
 use carom_mesh::parallel::{BODIES, both, has_threads, share, thread_count};
+use carom_mesh::{Vector, nodal};
 
 use super::island::{Solve, iterate_touching};
 use super::iterating::Iterating;
@@ -233,7 +233,7 @@ impl<const D: usize> Aside<D> {
         let bodies = (0..assembly.body_count()).map(|_| Box::new(Lent) as Box<dyn Body<D>>);
         Self {
             iterating: Iterating::new(assembly, bodies.collect()),
-            reached: vec![Vector::zeros(); assembly.reference.len()],
+            reached: nodal::zeros(assembly.reference.len()),
             lent: Vec::new(),
             made: Ok(0),
         }

@@ -1,6 +1,6 @@
 //! The books of the springs and dampers of a step.
 
-use carom_mesh::Vector;
+use carom_mesh::{Vector, nodal};
 
 use crate::ledger::{BodyLedger, Ledger};
 use crate::model::assembly::Assembly;
@@ -25,15 +25,11 @@ pub(crate) struct SpringBooks<const D: usize> {
 impl<const D: usize> SpringBooks<D> {
     /// Of an assembly.
     pub fn new(assembly: &Assembly<D>) -> Self {
-        let zeros = if assembly.springs.is_empty() {
-            Vec::new()
-        } else {
-            vec![Vector::zeros(); assembly.reference.len()]
-        };
+        let count = if assembly.springs.is_empty() { 0 } else { assembly.reference.len() };
         Self {
-            mean: zeros.clone(),
-            end: zeros.clone(),
-            pressing: zeros,
+            mean: nodal::zeros(count),
+            end: nodal::zeros(count),
+            pressing: nodal::zeros(count),
             works: vec![[0.0; 2]; assembly.body_count()],
             is_pressed: vec![true; assembly.body_count()],
             ledger: Ledger::default(),

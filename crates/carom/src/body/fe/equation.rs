@@ -88,8 +88,12 @@ pub(crate) struct ResidualScratch<const D: usize> {
 
 impl<const D: usize> ResidualScratch<D> {
     pub fn new(nodes: usize) -> Self {
-        let zeros = vec![Vector::zeros(); nodes];
-        Self { force: zeros.clone(), velocity: zeros.clone(), viscous: zeros.clone(), product: zeros }
+        Self {
+            force: nodal::zeros(nodes),
+            velocity: nodal::zeros(nodes),
+            viscous: nodal::zeros(nodes),
+            product: nodal::zeros(nodes),
+        }
     }
 
     /// The force C v [N] with which damping and viscosity resist the velocities `v` [m/s] at the displacements `u` [m].

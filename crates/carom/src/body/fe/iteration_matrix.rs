@@ -151,13 +151,13 @@ impl<const D: usize> IterationMatrix<D> {
             generation: 0,
             held: body.held().clone(),
             translation: Translation::of(body),
-            scratch: vec![Vector::zeros(); body.node_count()],
+            scratch: nodal::zeros(body.node_count()),
             origin: Origin {
                 dt: 0.0,
                 steadying: 0.0,
                 is_approximate: false,
                 frame: Matrix::identity(),
-                displacement: vec![Vector::zeros(); body.node_count()],
+                displacement: nodal::zeros(body.node_count()),
                 history: body.virgin(),
                 growth: 0.0,
             },
@@ -247,7 +247,7 @@ impl<const D: usize> IterationMatrix<D> {
             self.factorize_at(
                 &with_history.body.after(&[]),
                 map,
-                &vec![Vector::zeros(); u.len()],
+                &nodal::zeros(u.len()),
                 &Matrix::identity(),
                 approximate,
             )?;

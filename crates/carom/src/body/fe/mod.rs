@@ -74,13 +74,13 @@ pub(crate) struct FeBody<const D: usize> {
 impl<const D: usize> FeBody<D> {
     /// The body as it steps, which may be `connected` to others by springs.
     pub fn new(part: Arc<ModelBody<D>>, connected: bool) -> Self {
-        let zeros = vec![Vector::zeros(); part.body.node_count()];
-        let held = if part.body.held().is_empty() { Vec::new() } else { zeros.clone() };
+        let count = part.body.node_count();
+        let held = if part.body.held().is_empty() { Vec::new() } else { nodal::zeros(count) };
         Self {
             matrix: IterationMatrix::new(&part.body, connected),
             pose: Pose::default(),
             drive: Drive::new(&part),
-            scratch: ResidualScratch::new(part.body.node_count()),
+            scratch: ResidualScratch::new(count),
             blended: BlendedForces::default(),
             vibration: Vibration::default(),
             mass_solver: MassSolver::default(),
@@ -88,9 +88,9 @@ impl<const D: usize> FeBody<D> {
             node_stiffness: Vec::new(),
             region: Region::default(),
             residual: held,
-            middle: zeros.clone(),
-            jump: zeros.clone(),
-            momentum: zeros,
+            middle: nodal::zeros(count),
+            jump: nodal::zeros(count),
+            momentum: nodal::zeros(count),
             part,
         }
     }
@@ -175,7 +175,7 @@ impl<const D: usize> Body<D> for FeBody<D> {
         let body = &self.part.body;
         let with_history = body.after(state.history);
         with_history.internal_force(state.displacement, internal_force);
-        let mut momentum = vec![Vector::zeros(); body.node_count()];
+        let mut momentum = nodal::zeros(body.node_count());
         body.multiply_mass(state.velocity, &mut momentum);
         Energies {
             strain: with_history.strain_energy(state.displacement),
@@ -358,7 +358,7 @@ impl<const D: usize> Body<D> for FeBody<D> {
     fn stiffness_at(&mut self, node: u32) -> f64 {
         if self.node_stiffness.is_empty() {
             let body = &self.part.body;
-            let stiffness = body.stiffness(&vec![Vector::zeros(); body.node_count()]);
+            let stiffness = body.stiffness(&nodal::zeros(body.node_count()));
             let own = |n: u32| stiffness.values[stiffness.graph().entry(n, n)].trace() / D as f64;
             self.node_stiffness = (0..body.node_count() as u32).map(own).collect();
             body.ranks().iter().for_each(|ranks| ranks.sum(&mut self.node_stiffness));

@@ -105,12 +105,11 @@ pub(crate) struct Last<'a, const D: usize> {
 impl<const D: usize> Acceleration<D> {
     /// For a model with so many positions and bodies.
     pub fn new(positions: usize, bodies: usize) -> Self {
-        let zeros = vec![Vector::zeros(); positions];
         Self {
-            guess: zeros.clone(),
-            correction: zeros.clone(),
-            guesses: std::array::from_fn(|_| zeros.clone()),
-            corrections: std::array::from_fn(|_| zeros.clone()),
+            guess: nodal::zeros(positions),
+            correction: nodal::zeros(positions),
+            guesses: std::array::from_fn(|_| nodal::zeros(positions)),
+            corrections: std::array::from_fn(|_| nodal::zeros(positions)),
             bodies: vec![Record::default(); bodies],
         }
     }

@@ -7,7 +7,7 @@ pub(super) mod holding;
 pub(super) mod left_alone;
 pub(super) mod load_step;
 
-use carom_mesh::Vector;
+use carom_mesh::{Vector, nodal};
 
 use self::acceleration::Acceleration;
 use self::convergence::BodyProgress;
@@ -48,11 +48,11 @@ pub(crate) struct Newton<const D: usize> {
 impl<const D: usize> Newton<D> {
     /// Of an assembly.
     pub fn new(assembly: &Assembly<D>) -> Self {
-        let zeros = vec![Vector::zeros(); assembly.reference.len()];
+        let count = assembly.reference.len();
         Self {
-            acceleration: Acceleration::new(zeros.len(), assembly.body_count()),
-            residual: zeros.clone(),
-            correction: zeros,
+            acceleration: Acceleration::new(count, assembly.body_count()),
+            residual: nodal::zeros(count),
+            correction: nodal::zeros(count),
             progress: vec![BodyProgress::new(0.0); assembly.body_count()],
             holding: vec![Holding::default(); assembly.body_count()],
             guess: Vec::new(),
