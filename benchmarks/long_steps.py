@@ -3,7 +3,7 @@
 Processor time of one thread per step in contact, as a median, and what a step costs beside one of
 the shortest:
 
-    RAYON_NUM_THREADS=1 .venv/bin/python benchmarks/long_steps.py [--divisions 8]
+    RAYON_NUM_THREADS=1 .venv/bin/python benchmarks/long_steps.py [--divisions 8] [--condition gap]
 """
 
 from __future__ import annotations
@@ -15,11 +15,12 @@ from time import process_time
 import carom
 
 LENGTHS = (1, 10, 100)
+CONDITIONS = ("massless", "gap", "midpoint")
 STEPS = 12
 WAVE_SPEED = 63.0
 
 
-def landing(divisions: int, length: int) -> carom.Scenario:
+def landing(divisions: int, length: int, condition: str = "massless") -> carom.Scenario:
     """Return a ball that reaches the floor in its third step."""
     step = length / divisions / WAVE_SPEED
     speed = 0.01 * WAVE_SPEED / length**0.5
@@ -41,7 +42,7 @@ def landing(divisions: int, length: int) -> carom.Scenario:
             )
         ],
         obstacles=[carom.Plane(name="floor", point=(0.0, 0.0, 0.0), normal=(0.0, 0.0, 1.0))],
-        contact=carom.Contact(condition="midpoint", friction=0.2),
+        contact=carom.Contact(condition=condition, friction=0.2),
     )
 
 
@@ -49,10 +50,11 @@ def main() -> None:
     """Print a line for every length."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--divisions", type=int, default=12)
+    parser.add_argument("--condition", default="massless", choices=CONDITIONS)
     arguments = parser.parse_args()
     shortest = None
     for length in LENGTHS:
-        simulation = carom.Simulation(landing(arguments.divisions, length))
+        simulation = carom.Simulation(landing(arguments.divisions, length, arguments.condition))
         unknowns = sum(body.displacement.size for body in simulation.bodies.values())
         seconds, iterations = [], []
         while not simulation.has_ended:
