@@ -18,6 +18,8 @@ pub(crate) struct Compliance<const D: usize> {
     generation: u64,
     /// The rotation of the body since its blocks were made.
     pub turn: Matrix<D>,
+    /// How much of a reaction the body feels where nodes without mass press on its mass, of what contacts say: see [`OnMasses`](super::on_masses::OnMasses).
+    felt: f64,
     version: u64,
 }
 
@@ -80,7 +82,21 @@ impl<const D: usize> Compliance<D> {
             table: Table::All(Vec::new()),
             generation: 0,
             turn: Matrix::identity(),
+            felt: 1.0,
             version: 0,
+        }
+    }
+
+    /// See the field.
+    pub fn felt(&self) -> f64 {
+        self.felt
+    }
+
+    /// Takes note of how much the body feels of a reaction.
+    pub fn feel(&mut self, felt: f64) {
+        if felt != self.felt {
+            self.felt = felt;
+            self.version += 1;
         }
     }
 

@@ -64,6 +64,11 @@ impl<const D: usize> Delassus<D> {
         }
     }
 
+    /// How many times what contact `k` says the body of a node feels of its reaction.
+    pub fn felt(&self, assembly: &Assembly<D>, active: &ActiveSet<D>, k: usize, node: usize) -> f64 {
+        assembly.body_of(node).map_or(1.0, |b| felt(&self.compliances, active, k, b))
+    }
+
     /// Says that W of the next problem is not that of the last one.
     pub fn begin_anew(&mut self) {
         self.made_of.forget();
@@ -144,7 +149,9 @@ impl<const D: usize> Delassus<D> {
                     }
                     Some(block)
                 } else {
-                    coupling_block(assembly, compliances, row, &contacts[j])
+                    // What each feels of the other is taken for the mean of both: W is symmetric.
+                    let felt = |b| (felt(compliances, active, i, b) * felt(compliances, active, j, b)).sqrt();
+                    coupling_block(assembly, compliances, row, &contacts[j], felt)
                 }
             }));
         };
@@ -230,12 +237,18 @@ fn stiffened_block<const D: usize>(
     row.frame * response * column.frame.transpose()
 }
 
-/// The block of W between two contacts, if nodes of a body respond to one another.
+/// How many times what contact `k` says body `b` feels of its reaction.
+fn felt<const D: usize>(compliances: &[Compliance<D>], active: &ActiveSet<D>, k: usize, b: usize) -> f64 {
+    if active.conditions[k].is_massless() { compliances[b].felt() } else { 1.0 }
+}
+
+/// The block of W between two contacts, if nodes of a body respond to one another; of a reaction a body feels so many times what contacts say.
 fn coupling_block<const D: usize>(
     assembly: &Assembly<D>,
     compliances: &[Compliance<D>],
     row: &Contact<D>,
     column: &Contact<D>,
+    felt: impl Fn(usize) -> f64,
 ) -> Option<Matrix<D>> {
     let mut block: Option<Matrix<D>> = None;
     for (m, column_weight) in column.stencil() {
@@ -251,7 +264,7 @@ fn coupling_block<const D: usize>(
         }
         if let Some(response) = response {
             let turn = &compliances[b].turn;
-            let part = row.frame * turn * response * turn.transpose() * column.frame.transpose();
+            let part = row.frame * turn * response * turn.transpose() * column.frame.transpose() * felt(b);
             block = Some(block.map_or(part, |sum| sum + part));
         }
     }

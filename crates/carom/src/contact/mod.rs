@@ -214,7 +214,9 @@ impl<const D: usize> Contacts<D> {
         accuracy: Accuracy,
         bodies: &mut [Box<dyn Body<D>>],
     ) -> Result<f64, StepError> {
-        self.reduced.solve(given, &mut self.active, motion, accuracy, bodies)
+        let Self { reduced, active, on_masses, .. } = self;
+        reduced.feel(|i| on_masses.felt(i));
+        reduced.solve(given, active, motion, accuracy, bodies)
     }
 
     /// Whether contacts have lost what held them where iterations have led: see [`ActiveSet::let_go`].

@@ -21,10 +21,15 @@ pub(crate) struct OnMasses<const D: usize> {
     couples: [Vec<Vector<D>>; 2],
     /// The mass of every node of a body [kg].
     masses: Vec<f64>,
+    /// By body, how many times ξ r₁ it feels.
+    felt: Vec<f64>,
     /// Whether such contacts act on a body, and whether a body with mass is asked for.
     acts_on: Vec<bool>,
     is_asked: Vec<bool>,
 }
+
+/// No body is taken to feel less of a reaction in W, of what contacts say: W has to stay regular, whatever the blend.
+const LEAST_FELT: f64 = 0.25;
 
 impl<const D: usize> OnMasses<D> {
     /// Takes the reactions that the step starts with.
@@ -34,6 +39,8 @@ impl<const D: usize> OnMasses<D> {
             flags.clear();
             flags.resize(assembly.body_count(), false);
         }
+        self.felt.clear();
+        self.felt.resize(assembly.body_count(), 1.0);
         if !assembly.is_mixed() || !given.method.condition.is_massless() {
             return;
         }
@@ -162,7 +169,7 @@ impl<const D: usize> OnMasses<D> {
     /// Adds to the `residual` [N] of `bodies` what acts on them beside ξ r₁, which their contacts add as others do theirs; `weights` are α of all
     /// bodies.
     pub fn add_known(
-        &self,
+        &mut self,
         bodies: &[usize],
         given: &Given<'_, D>,
         weights: &[f64],
@@ -174,7 +181,17 @@ impl<const D: usize> OnMasses<D> {
                 residual[n] += self.start[n] * (1.0 - xi);
             }
         }
+        for &i in bodies {
+            let alpha = if self.acts_on[i] && given.interval.is_blended { weights[i] } else { 0.0 };
+            self.felt[i] = (1.0 + alpha / xi).max(LEAST_FELT);
+        }
         self.add_blended(bodies, given, weights, residual);
+    }
+
+    /// How many times ξ r₁ body `i` feels of a reaction r₁ in this iteration. Without it a change of r₁ would be half or twice what it takes, and
+    /// iterations would go round: two boxes at rest on one another, one of them with mass, did.
+    pub fn felt(&self, i: usize) -> f64 {
+        self.felt[i]
     }
 
     /// Adds to `forces` [N] on `bodies` what they have more than (1 − ξ) r₀ + ξ r₁ in a blended step.

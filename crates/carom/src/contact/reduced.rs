@@ -159,6 +159,12 @@ impl<const D: usize> Reduced<D> {
         });
     }
 
+    /// Takes note of how much the prepared bodies feel of reactions of nodes without mass.
+    pub fn feel(&mut self, felt: impl Fn(usize) -> f64) {
+        let Self { listed, delassus, .. } = self;
+        listed.iter().for_each(|&i| delassus.compliances[i].feel(felt(i)));
+    }
+
     /// Makes what contacts add to the tangents of a load step at a guess, and adds the forces that go with it to the `residual` [N].
     pub fn stiffen(
         &mut self,
@@ -282,10 +288,15 @@ impl<const D: usize> Reduced<D> {
             let first = assembly.nodes(i).start;
             nodes.iter().for_each(|&node| self.change[first + node as usize] = Vector::zeros());
         }
-        for ((contact, r), before) in active.contacts.iter().zip(&active.reactions).zip(&self.guess) {
-            contact.add_force(&(r - before), &mut self.change);
+        let stiffened = self.delassus.stiffened.is_needed();
+        for (k, contact) in active.contacts.iter().enumerate() {
+            let force = contact.frame.tr_mul(&(active.reactions[k] - self.guess[k]));
+            for (node, weight) in contact.stencil() {
+                let felt = if stiffened { 1.0 } else { self.delassus.felt(assembly, active, k, node) };
+                self.change[node] += force * weight * felt;
+            }
         }
-        if self.delassus.stiffened.is_needed() {
+        if stiffened {
             self.delassus.stiffened.stand_in(&mut self.change);
         }
         let Self { nodes, listed, change, .. } = self;
