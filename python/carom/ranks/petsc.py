@@ -39,8 +39,8 @@ ITERATIONS = 1000
 """The most of conjugate gradients."""
 
 MALLOPT = {-1: 2**23, -3: 2**22, -4: 2**16}
-"""`M_TRIM_THRESHOLD`, `M_MMAP_THRESHOLD` [bytes] and `M_MMAP_MAX` of glibc. What messages are summed
-in is less, and is not asked of the system again for every one."""
+"""`M_TRIM_THRESHOLD`, `M_MMAP_THRESHOLD` [bytes] and `M_MMAP_MAX` of glibc. What messages are
+summed in is less, and is not asked of the system again for every one."""
 
 
 def give_memory_back() -> None:

@@ -4,9 +4,10 @@ import multiprocessing
 import os
 import threading
 
-import carom
 import numpy as np
 import pytest
+
+import carom
 
 pytestmark = pytest.mark.skipif(not hasattr(os, "fork"), reason="there are no forks here")
 
