@@ -95,9 +95,9 @@ def pile(
 
 
 def neighbours(case: carom.Scenario) -> int:
-    """Return how many pairs of bodies are close enough to touch."""
+    """Return how many pairs of bodies are close enough to touch, one at least."""
     centres = np.array([body.mesh.centre for body in case.bodies])
-    return len(KDTree(centres).query_pairs(2.02 * RADIUS))
+    return max(1, len(KDTree(centres).query_pairs(2.02 * RADIUS)))
 
 
 def measure(dimension: int, count: int, condition: str) -> None:

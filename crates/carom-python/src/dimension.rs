@@ -6,14 +6,15 @@ pub enum Dimension<P, S> {
     Space(S),
 }
 
-/// Evaluates an expression of what is inside, whatever its dimension.
+/// Evaluates an expression of what is inside, whatever its dimension; without threads in a forked process.
 macro_rules! with {
-    ($either:expr, $inner:ident => $value:expr) => {
+    ($either:expr, $inner:ident => $value:expr) => {{
+        $crate::threads::mind_forks();
         match $either {
             $crate::dimension::Dimension::Plane($inner) => $value,
             $crate::dimension::Dimension::Space($inner) => $value,
         }
-    };
+    }};
 }
 
 pub(crate) use with;

@@ -43,14 +43,19 @@ fn forked() {
 
 /// Does `work` without the lock of Python.
 pub fn detached<R: Send>(py: Python<'_>, work: impl FnOnce() -> R + Send) -> R {
+    mind_forks();
+    py.detach(work)
+}
+
+/// Before work that threads may share: in a process that was forked this one works alone.
+pub fn mind_forks() {
     STARTED.store(true, Ordering::Relaxed);
     if FORKED.load(Ordering::Relaxed) {
         work_alone();
     }
-    py.detach(work)
 }
 
-/// Makes this thread the only one of a pool, for as long as it lives.
+/// Makes this thread the only one of a pool, which is never given back.
 fn work_alone() {
     // One that was a worker of the parent waits for nobody either: it takes back itself what nobody else takes.
     if rayon::current_thread_index().is_none() {

@@ -222,7 +222,7 @@ impl<const D: usize> Chebyshev<D> {
                     for (response, &a) in responses.iter_mut().zip(&*reach) {
                         *response = part_at(matrix, x, a as usize);
                     }
-                    unit.vectors.clear(unit.moved.here(usize::MAX));
+                    unit.vectors.clear(unit.moved.everywhere());
                 }
             }
         };
@@ -255,12 +255,12 @@ impl<const D: usize> Chebyshev<D> {
             *is_grown = true;
         }
         solve_within(matrix, weights, *alpha, added, moved);
-        for place in moved.here(usize::MAX) {
+        for place in moved.everywhere() {
             for (x, added) in whole.x[place].iter_mut().zip(&added.x[place]) {
                 x[0] += added[0];
             }
         }
-        added.clear(moved.here(usize::MAX));
+        added.clear(moved.everywhere());
         self.has_added = false;
     }
 }

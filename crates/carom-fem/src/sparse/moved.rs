@@ -52,6 +52,11 @@ impl Moved {
         (&self.rows.whole[..whole], &self.rows.split[..split])
     }
 
+    /// All places here.
+    pub fn everywhere(&self) -> impl Iterator<Item = usize> {
+        self.here(usize::MAX)
+    }
+
     /// All places here up to the given ring.
     pub fn here(&self, ring: usize) -> impl Iterator<Item = usize> {
         let (whole, split) = self.up_to(ring);

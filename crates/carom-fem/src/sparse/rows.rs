@@ -34,7 +34,8 @@ pub(super) struct Split {
 }
 
 impl Rows {
-    pub fn of<const D: usize>(matrix: &NodalMatrix<Matrix<D>>, ranks: &Arc<dyn Ranks>) -> Self {
+    /// None if nobody has any of a row: all processes see that.
+    pub fn of<const D: usize>(matrix: &NodalMatrix<Matrix<D>>, ranks: &Arc<dyn Ranks>) -> Option<Self> {
         let graph = matrix.graph();
         let is_here =
             |node: usize| graph.row(node).any(|(entry, _)| matrix.values[entry].iter().any(|&x| x != 0.0));
@@ -44,6 +45,9 @@ impl Rows {
         let nodes: Vec<u32> = (0..counts.len() as u32).filter(|&n| counts[n as usize] > 0.0).collect();
         nodes.iter().zip(0..).for_each(|(&node, place)| places[node as usize] = place);
         ranks.sum_single(&mut counts);
+        if !counts.iter().all(|&count| count > 0.0) {
+            return None;
+        }
         let shares = nodes.iter().map(|&node| f64::from(counts[node as usize]).recip()).collect();
         let is_split = counts.iter().map(|&count| count > 1.0).collect();
         let mut rows =
@@ -51,7 +55,7 @@ impl Rows {
         let mut all = Split::default();
         rows.add(0..counts.len() as u32, &mut all);
         rows.all = all;
-        rows
+        Some(rows)
     }
 
     pub fn ranks(&self) -> &dyn Ranks {

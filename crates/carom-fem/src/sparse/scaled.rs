@@ -37,7 +37,10 @@ pub(super) struct Scaled<const D: usize> {
 impl<const D: usize> Scaled<D> {
     /// None if a block of the diagonal is not positive definite, or a number is not finite.
     pub fn of(matrix: &NodalMatrix<Matrix<D>>, sharing: Option<&Sharing>) -> Option<Self> {
-        let shared = sharing.map(|sharing| (sharing.clone(), Rows::of(matrix, &sharing.ranks)));
+        let shared = match sharing {
+            None => None,
+            Some(sharing) => Some((sharing.clone(), Rows::of(matrix, &sharing.ranks)?)),
+        };
         let rows = shared.as_ref().map(|(_, rows)| rows);
         let whole = matrix.shared_graph();
         let graph = rows.map_or_else(|| Arc::clone(whole), |rows| Arc::new(rows.part_of(whole)));
@@ -50,7 +53,7 @@ impl<const D: usize> Scaled<D> {
         }
         let scale = |block: Matrix<D>| nalgebra::Cholesky::new(block)?.l().try_inverse();
         let scales: Option<Vec<Matrix<D>>> = diagonal.into_iter().map(scale).collect();
-        let values = scales.as_ref().and_then(|scales| scaled_values(matrix, rows, scales));
+        let values = scales.as_ref().and_then(|scales| scaled_values(matrix, &graph, rows, scales));
         // All ranks are to say the same.
         let mut refused = [f64::from(u8::from(values.is_none()))];
         rows.iter().for_each(|rows| rows.ranks().sum(&mut refused));
@@ -164,12 +167,13 @@ fn node_at(rows: Option<&Rows>, place: usize) -> usize {
 /// The blocks of S where L⁻¹ of every node is known; none if one is too large or not finite.
 fn scaled_values<const D: usize>(
     matrix: &NodalMatrix<Matrix<D>>,
+    own: &NodeGraph,
     rows: Option<&Rows>,
     scales: &[Matrix<D>],
 ) -> Option<Vec<i16>> {
     let graph = matrix.graph();
     let place_of = |node: usize| rows.map_or(Some(node), |rows| rows.place(node));
-    let mut values = Vec::with_capacity(graph.entry_count() * D * D + LANES);
+    let mut values = Vec::with_capacity(own.entry_count() * D * D + LANES);
     for place in 0..scales.len() {
         for (entry, neighbour) in graph.row(node_at(rows, place)) {
             let Some(neighbour) = place_of(neighbour) else { continue };

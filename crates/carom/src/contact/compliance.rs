@@ -190,7 +190,7 @@ impl<const D: usize> Compliance<D> {
         self.version += 1;
     }
 
-    /// Another number whenever blocks that there were, or the rotation, have become others.
+    /// Another number whenever blocks that there were, the rotation, or what is felt have become others.
     pub fn version(&self) -> u64 {
         self.version
     }

@@ -1,4 +1,5 @@
-//! W = H K̄⁻¹ Hᵀ and q of the contact points alone.
+//! W = H K̄⁻¹ Hᵀ and q of the contact points alone. In blended steps a body with mass feels [more](super::on_masses) of a reaction than contacts say, and W
+//! has as much of its K̄⁻¹.
 
 use carom_contact::Contact;
 use carom_friction::ContactProblem;
@@ -66,7 +67,7 @@ impl<const D: usize> Delassus<D> {
 
     /// How many times what contact `k` says the body of a node feels of its reaction.
     pub fn felt(&self, assembly: &Assembly<D>, active: &ActiveSet<D>, k: usize, node: usize) -> f64 {
-        assembly.body_of(node).map_or(1.0, |b| felt(&self.compliances, active, k, b))
+        assembly.body_of(node).map_or(1.0, |b| felt_by(b, &self.compliances, active, k))
     }
 
     /// Says that W of the next problem is not that of the last one.
@@ -143,14 +144,20 @@ impl<const D: usize> Delassus<D> {
                 if j < i && !leaves_out {
                     None
                 } else if stiffened {
-                    let mut block = stiffened_block(tangent, row, &contacts[j]);
+                    let felt = |k: usize, n| {
+                        assembly.body_of(n).map_or(1.0, |b| felt_by(b, compliances, active, k)).sqrt()
+                    };
+                    let mut block =
+                        stiffened_block(tangent, (row, |n| felt(i, n)), (&contacts[j], |n| felt(j, n)));
                     if leaves_out {
                         block += tangent.unseen_block(i, &contacts[j]);
                     }
                     Some(block)
                 } else {
-                    // What each feels of the other is taken for the mean of both: W is symmetric.
-                    let felt = |b| (felt(compliances, active, i, b) * felt(compliances, active, j, b)).sqrt();
+                    let felt = |b| {
+                        let [one, other] = [i, j].map(|k| felt_by(b, compliances, active, k));
+                        (one * other).sqrt()
+                    };
                     coupling_block(assembly, compliances, row, &contacts[j], felt)
                 }
             }));
@@ -220,25 +227,26 @@ pub(crate) fn support<const D: usize>(
     support
 }
 
-/// The block of W between two contacts by the tangents of a load step.
+/// The block of W between two contacts by the tangents of a load step; of a reaction the body of a node feels the square of what is given with each.
 fn stiffened_block<const D: usize>(
     tangent: &Stiffened<D>,
-    row: &Contact<D>,
-    column: &Contact<D>,
+    (row, felt_of_row): (&Contact<D>, impl Fn(usize) -> f64),
+    (column, felt_of_column): (&Contact<D>, impl Fn(usize) -> f64),
 ) -> Matrix<D> {
     let mut response = Matrix::zeros();
     for (m, column_weight) in column.stencil() {
         for (n, row_weight) in row.stencil() {
             if let Some(yields) = tangent.block(n, m) {
-                response += yields * (row_weight * column_weight);
+                response += yields * (row_weight * felt_of_row(n) * column_weight * felt_of_column(m));
             }
         }
     }
     row.frame * response * column.frame.transpose()
 }
 
-/// How many times what contact `k` says body `b` feels of its reaction.
-fn felt<const D: usize>(compliances: &[Compliance<D>], active: &ActiveSet<D>, k: usize, b: usize) -> f64 {
+/// How many times what contact `k` says body `b` feels of its reaction. W has the geometric mean of two contacts, as it is symmetric, and bodies are given what
+/// each says: it is the same once reactions no longer change.
+fn felt_by<const D: usize>(b: usize, compliances: &[Compliance<D>], active: &ActiveSet<D>, k: usize) -> f64 {
     if active.conditions[k].is_massless() { compliances[b].felt() } else { 1.0 }
 }
 

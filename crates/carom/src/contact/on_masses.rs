@@ -28,7 +28,7 @@ pub(crate) struct OnMasses<const D: usize> {
     is_asked: Vec<bool>,
 }
 
-/// No body is taken to feel less of a reaction in W, of what contacts say: W has to stay regular, whatever the blend.
+/// In W no body feels less than this of ξ r₁: with 0 it would be singular.
 const LEAST_FELT: f64 = 0.25;
 
 impl<const D: usize> OnMasses<D> {
@@ -166,8 +166,8 @@ impl<const D: usize> OnMasses<D> {
         }
     }
 
-    /// Adds to the `residual` [N] of `bodies` what acts on them beside ξ r₁, which their contacts add as others do theirs; `weights` are α of all
-    /// bodies.
+    /// Adds to the `residual` [N] of `bodies` what acts on them beside ξ r₁, which their contacts add as others do theirs, and takes note of what they
+    /// [feel](Self::felt); `weights` are α of all bodies.
     pub fn add_known(
         &mut self,
         bodies: &[usize],

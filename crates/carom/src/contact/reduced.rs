@@ -288,15 +288,13 @@ impl<const D: usize> Reduced<D> {
             let first = assembly.nodes(i).start;
             nodes.iter().for_each(|&node| self.change[first + node as usize] = Vector::zeros());
         }
-        let stiffened = self.delassus.stiffened.is_needed();
         for (k, contact) in active.contacts.iter().enumerate() {
             let force = contact.frame.tr_mul(&(active.reactions[k] - self.guess[k]));
             for (node, weight) in contact.stencil() {
-                let felt = if stiffened { 1.0 } else { self.delassus.felt(assembly, active, k, node) };
-                self.change[node] += force * weight * felt;
+                self.change[node] += force * weight * self.delassus.felt(assembly, active, k, node);
             }
         }
-        if stiffened {
+        if self.delassus.stiffened.is_needed() {
             self.delassus.stiffened.stand_in(&mut self.change);
         }
         let Self { nodes, listed, change, .. } = self;
