@@ -2,50 +2,24 @@
 
 import multiprocessing
 import os
+import sys
 import threading
+from pathlib import Path
 
 import numpy as np
 import pytest
 
 import carom
 
+sys.path.insert(0, str(Path(__file__).parents[3] / "benchmarks"))
+from many_bodies import pile
+
 pytestmark = pytest.mark.skipif(not hasattr(os, "fork"), reason="there are no forks here")
 
 
-def heap():
-    """Discs that threads share: nodes of several bodies."""
-    disc = {"kind": "disc", "radius": 0.4, "divisions": 8, "rings": 8}
-    bodies = [
-        {
-            "name": f"disc{k}",
-            "material": "rubber",
-            "mesh": {**disc, "centre": [k % 4, 0.395 + k // 4]},
-        }
-        for k in range(12)
-    ]
-    return carom.Scenario.from_dict(
-        {
-            "dimension": 2,
-            "analysis": {"end_time": 0.01, "time_step": 0.001, "gravity": [0.0, -9.81]},
-            "materials": {
-                "rubber": {
-                    "kind": "saint-venant-kirchhoff",
-                    "young": 2700.0,
-                    "poisson": 0.33,
-                    "density": 1.0,
-                }
-            },
-            "bodies": bodies,
-            "obstacles": [
-                {"name": "floor", "kind": "plane", "point": [0, -0.01], "normal": [0, 1]}
-            ],
-            "contact": {"friction": 0.3},
-        }
-    )
-
-
 def stepped():
-    simulation = carom.Simulation(heap())
+    # Threads share the nodes of so many discs.
+    simulation = carom.Simulation(pile(2, 40))
     for _ in range(3):
         simulation.step()
     return np.concatenate([body.points for body in simulation.bodies.values()])

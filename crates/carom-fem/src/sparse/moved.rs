@@ -6,10 +6,9 @@ use super::scaled::Scaled;
 #[derive(Debug, Default)]
 pub(super) struct Moved {
     region: Region,
-    /// Where other processes have rows, and where those of each ring end.
+    /// Where other processes have rows, those that are here, and where those of each ring end; else nothing.
     rows: Split,
     ends: Vec<[usize; 2]>,
-    is_shared: bool,
 }
 
 impl Moved {
@@ -21,7 +20,7 @@ impl Moved {
         rings: usize,
     ) {
         self.region.grow(matrix.graph(), middle, rings);
-        self.is_shared = matrix.rows().is_some();
+        self.ends.clear();
         if let Some(rows) = matrix.rows() {
             self.take_rows(rows);
         }
@@ -31,7 +30,6 @@ impl Moved {
         let Self { region, rows, ends, .. } = self;
         rows.whole.clear();
         rows.split.clear();
-        ends.clear();
         for ring in region.rings() {
             all.add(ring.iter().copied(), rows);
             ends.push([rows.whole.len(), rows.split.len()]);
@@ -45,7 +43,7 @@ impl Moved {
 
     /// The places up to the given ring, and those that are [split](Rows); all of them beyond the last.
     pub fn up_to(&self, ring: usize) -> (&[u32], &[u32]) {
-        if !self.is_shared {
+        if self.ends.is_empty() {
             return (self.region.up_to(ring), &[]);
         }
         let [whole, split] = self.ends[ring.min(self.ends.len() - 1)];

@@ -87,7 +87,7 @@ impl<const D: usize> Scaled<D> {
     /// The place of a node of the body, if its row is here.
     #[inline]
     pub fn place_of(&self, node: usize) -> Option<usize> {
-        self.rows().map_or(Some(node), |rows| rows.place(node))
+        place_of(self.rows(), node)
     }
 
     /// Memory [bytes].
@@ -164,6 +164,11 @@ fn node_at(rows: Option<&Rows>, place: usize) -> usize {
     rows.map_or(place, |rows| rows.nodes()[place] as usize)
 }
 
+#[inline]
+fn place_of(rows: Option<&Rows>, node: usize) -> Option<usize> {
+    rows.map_or(Some(node), |rows| rows.place(node))
+}
+
 /// The blocks of S where L⁻¹ of every node is known; none if one is too large or not finite.
 fn scaled_values<const D: usize>(
     matrix: &NodalMatrix<Matrix<D>>,
@@ -172,11 +177,10 @@ fn scaled_values<const D: usize>(
     scales: &[Matrix<D>],
 ) -> Option<Vec<i16>> {
     let graph = matrix.graph();
-    let place_of = |node: usize| rows.map_or(Some(node), |rows| rows.place(node));
     let mut values = Vec::with_capacity(own.entry_count() * D * D + LANES);
     for place in 0..scales.len() {
         for (entry, neighbour) in graph.row(node_at(rows, place)) {
-            let Some(neighbour) = place_of(neighbour) else { continue };
+            let Some(neighbour) = place_of(rows, neighbour) else { continue };
             let block = scales[place] * matrix.values[entry] * scales[neighbour].transpose();
             if !block.iter().all(|x| x.abs() <= CONTROL.largest) {
                 return None;
